@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "traverse/config/binder.hpp"
+
+namespace traverse::config {
+
+/// A YAML mapping with the places of its keys, and overrides on top of it (--set key=value).
+class Document {
+ public:
+  Document();  ///< empty
+  /// \throws files::InputError with file and line if it is not YAML or not a mapping.
+  static Document load(const std::filesystem::path& file);
+  /// `origin` stands for the file in messages.
+  static Document parse(const std::string& yaml, const std::string& origin);
+
+  Document(Document&&) noexcept;
+  Document& operator=(Document&&) noexcept;
+  ~Document();
+
+  /// Puts `document` over this one: its keys win, key by key through nested mappings.
+  void overlay(const Document& document);
+
+  /// Overrides one key: "features.edge_threshold=0.2". The value is YAML.
+  /// \throws files::InputError if there is no '=' or the value is not YAML.
+  void set(std::string_view assignment);
+
+  bool has(std::string_view top_level_key) const;
+  /// The mapping below `top_level_key`, empty if there is none. \throws files::InputError if the
+  /// key holds something else.
+  Document child(std::string_view top_level_key) const;
+  std::vector<std::string> keys() const;  ///< of the top level, in order
+
+  class Tree;
+  const Tree& tree() const { return *tree_; }
+
+ private:
+  std::unique_ptr<Tree> tree_;
+};
+
+/// Gives each bound setting its value in `document`; settings that are not there keep theirs.
+/// \throws files::InputError naming file, line, key, what is allowed and what was found, for a
+/// value of the wrong type or out of range and for a key that nothing binds (with the nearest
+/// known key as a hint).
+void read(const Document& document, const Bind& bind);
+
+}  // namespace traverse::config

@@ -1,0 +1,139 @@
+#include "traverse/config/document.hpp"
+
+#include <utility>
+
+#include "traverse/files/input_error.hpp"
+#include "traverse/files/text_file.hpp"
+
+#include "tree.hpp"
+
+namespace traverse::config {
+
+using files::InputError;
+using files::Place;
+using Entry = Document::Tree::Entry;
+
+namespace {
+
+constexpr int kDeepestNesting = 32;
+
+Entry build(const YAML::Node& node, std::string key, const std::string& origin, int key_line,
+            int depth) {
+  const auto place = Place::line(static_cast<std::size_t>(key_line));
+  if (depth > kDeepestNesting) throw InputError(origin, place, "less deeply nested keys", "more");
+  Entry entry{std::move(key), origin, key_line, node, {}, node.IsMap()};
+  if (!entry.is_mapping) return entry;
+  for (const auto& item : node) {
+    const int line = item.first.Mark().line + 1;
+    const auto item_place = Place::line(static_cast<std::size_t>(line));
+    if (!item.first.IsScalar()) throw InputError(origin, item_place, "a plain key", "a collection");
+    const auto& name = item.first.Scalar();
+    if (entry.find(name) != nullptr) {
+      throw InputError(origin, item_place, "each key once", files::in_quotes(name) + " again");
+    }
+    entry.children.push_back(build(item.second, name, origin, line, depth + 1));
+  }
+  return entry;
+}
+
+Entry parse_mapping(const std::string& yaml, const std::string& origin) {
+  YAML::Node node;
+  try {
+    node = YAML::Load(yaml);
+  } catch (const YAML::ParserException& error) {
+    throw InputError(origin, Place::line(static_cast<std::size_t>(error.mark.line + 1)),
+                     "valid YAML", error.msg);
+  }
+  if (node.IsNull()) node = YAML::Node(YAML::NodeType::Map);  // an empty file sets nothing
+  if (!node.IsMap())
+    throw InputError(origin, Place::line(1), "a mapping of keys to values", "none");
+  return build(node, "", origin, 1, 0);
+}
+
+void overlay_entry(Entry& base, const Entry& top) {
+  if (!base.is_mapping || !top.is_mapping) {
+    base = top;
+    return;
+  }
+  for (const Entry& child : top.children) {
+    if (Entry* existing = base.find(child.key)) {
+      overlay_entry(*existing, child);
+    } else {
+      base.children.push_back(child);
+    }
+  }
+}
+
+}  // namespace
+
+const Entry* Document::Tree::Entry::find(std::string_view name) const {
+  for (const Entry& child : children) {
+    if (child.key == name) return &child;
+  }
+  return nullptr;
+}
+
+Entry* Document::Tree::Entry::find(std::string_view name) {
+  return const_cast<Entry*>(std::as_const(*this).find(name));
+}
+
+Document::Document() : tree_(std::make_unique<Tree>()) { tree_->root.is_mapping = true; }
+Document::Document(Document&&) noexcept = default;
+Document& Document::operator=(Document&&) noexcept = default;
+Document::~Document() = default;
+
+Document Document::load(const std::filesystem::path& file) {
+  return parse(files::read_text(file), file.string());
+}
+
+Document Document::parse(const std::string& yaml, const std::string& origin) {
+  Document document;
+  document.tree_->root = parse_mapping(yaml, origin);
+  return document;
+}
+
+void Document::overlay(const Document& document) {
+  overlay_entry(tree_->root, document.tree_->root);
+}
+
+void Document::set(std::string_view assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string_view::npos || equals == 0) {
+    throw InputError("--set", Place::whole_file(), "key=value", files::in_quotes(assignment));
+  }
+  // "a.b=1" is the YAML "a: {b: 1}": written so, it takes the same way as a file.
+  std::string yaml;
+  std::string closing;
+  std::string_view path = assignment.substr(0, equals);
+  for (std::size_t dot = path.find('.'); dot != std::string_view::npos; dot = path.find('.')) {
+    yaml += "{" + std::string(path.substr(0, dot)) + ": ";
+    closing += "}";
+    path.remove_prefix(dot + 1);
+  }
+  yaml += "{" + std::string(path) + ": " + std::string(assignment.substr(equals + 1)) + "}";
+  overlay(parse(yaml + closing, "--set " + std::string(assignment)));
+}
+
+bool Document::has(std::string_view top_level_key) const {
+  return tree_->root.find(top_level_key) != nullptr;
+}
+
+Document Document::child(std::string_view top_level_key) const {
+  Document result;
+  const Entry* entry = tree_->root.find(top_level_key);
+  if (entry == nullptr) return result;
+  if (!entry->is_mapping) {
+    throw InputError(entry->origin, Place::line(static_cast<std::size_t>(entry->line)),
+                     "a mapping under '" + entry->key + "'", "a single value");
+  }
+  result.tree_->root = *entry;
+  return result;
+}
+
+std::vector<std::string> Document::keys() const {
+  std::vector<std::string> names;
+  for (const Entry& child : tree_->root.children) names.push_back(child.key);
+  return names;
+}
+
+}  // namespace traverse::config

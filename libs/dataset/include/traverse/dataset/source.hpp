@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "traverse/geometry/trajectory.hpp"
+#include "traverse/sensors/measurement.hpp"
+#include "traverse/sensors/rig.hpp"
+
+namespace traverse::dataset {
+
+/// Something that was taken for true about a recording, and why: shown by `info` and the report.
+struct Fact {
+  std::string name;    ///< "motion compensated"
+  std::string value;   ///< "no"
+  std::string reason;  ///< "traverse.yaml, line 3" | "KITTI raw scans are not" | "--recording ..."
+};
+
+/// Records that could not be used, by reason, with the first few places of each.
+class SkippedRecords {
+ public:
+  void add(const std::string& reason, const std::string& place);
+
+  std::size_t total() const;
+  bool empty() const { return by_reason_.empty(); }
+
+  struct Count {
+    std::size_t count = 0;
+    std::vector<std::string> first_places;  ///< at most ten, "velodyne/000012.bin", "record 340"
+  };
+  const std::map<std::string, Count>& by_reason() const { return by_reason_; }
+
+ private:
+  std::map<std::string, Count> by_reason_;
+};
+
+/// What a recording is, known before its measurements are read.
+struct RecordingInfo {
+  std::filesystem::path path;
+  std::string format;  ///< "KITTI odometry", "KITTI raw", "point-cloud folder", "MRPT rawlog"
+  std::string name;    ///< short, for titles: "2011_09_26_drive_0001"
+  sensors::Rig rig;
+  /// The points of each scan already lie where they would at the scan's stamp: no deskew.
+  bool motion_compensated = false;
+  std::vector<Fact> facts;
+  /// Number of measurements of each lidar scan stream, when it is known without reading; 0 if not.
+  std::size_t expected_scans = 0;
+};
+
+/// The reference trajectory that belongs to a recording.
+struct Reference {
+  geometry::Trajectory T_map_body;  ///< in the rig's body frame, stamped
+  std::filesystem::path file;
+  std::string description;  ///< how it was brought to the body frame
+};
+
+/// A recording: a stream of measurements in the order of their stamps.
+///
+/// A record that cannot be used is skipped and counted when the rest is usable; an input that
+/// cannot be used at all is a files::InputError.
+class Source {
+ public:
+  virtual ~Source() = default;
+
+  virtual const RecordingInfo& info() const = 0;
+
+  /// The next measurement, or nothing at the end. Stamps never decrease within one sensor: a
+  /// record whose stamp is not later than its predecessor's is skipped and counted.
+  virtual std::optional<sensors::Measurement> next() = 0;
+
+  /// Begins again from the first measurement, with no record skipped yet.
+  virtual void rewind() = 0;
+
+  /// Records skipped so far.
+  virtual const SkippedRecords& skipped() const = 0;
+
+  /// The reference trajectory, if the recording has one.
+  virtual const std::optional<Reference>& reference() const = 0;
+};
+
+}  // namespace traverse::dataset

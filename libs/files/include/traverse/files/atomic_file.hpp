@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+namespace traverse::files {
+
+/// A file that appears whole or not at all: written under a temporary name beside its place and
+/// renamed by commit(). Without commit() nothing is left behind.
+class AtomicFile {
+ public:
+  /// Opens the temporary file for binary writing.
+  /// \throws OutputError if the folder does not exist or does not allow it.
+  explicit AtomicFile(std::filesystem::path path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  /// The stream to write to. Failures are sticky and reported by commit().
+  std::ostream& stream() { return stream_; }
+
+  /// The temporary file, for libraries that must open it by name. Close stream() use before.
+  const std::filesystem::path& temporary_path() const { return temporary_; }
+
+  /// Flushes, checks that every byte was taken (disk full), and renames.
+  /// \throws OutputError naming the path and the system's reason.
+  void commit();
+
+ private:
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+  std::ofstream stream_;
+  bool committed_ = false;
+};
+
+/// Writes `text` as the whole of `path`, atomically. \throws OutputError
+void write_text(const std::filesystem::path& path, std::string_view text);
+
+/// Creates `folder` with its parents if missing, and checks that files can be made in it.
+/// \throws OutputError otherwise.
+void make_writable_folder(const std::filesystem::path& folder);
+
+}  // namespace traverse::files

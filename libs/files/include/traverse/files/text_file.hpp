@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "traverse/files/input_error.hpp"
+
+namespace traverse::files {
+
+/// Reads a text file line by line and knows where it is, for error messages.
+class LineReader {
+ public:
+  /// \throws InputError if the file cannot be opened.
+  explicit LineReader(std::filesystem::path path);
+
+  /// Advances to the next line that is neither blank nor a '#' comment; false at the end.
+  bool next();
+
+  const std::string& line() const { return line_; }
+  std::size_t number() const { return number_; }  ///< of the current line, from 1
+
+  /// An error about the current line, to be thrown.
+  InputError error(std::string expected, std::string found) const;
+  /// The same, with the line itself as what was found.
+  InputError error(std::string expected) const;
+
+ private:
+  std::filesystem::path path_;
+  std::ifstream stream_;
+  std::string line_;
+  std::size_t number_ = 0;
+};
+
+/// The whole file. \throws InputError if it cannot be read.
+std::string read_text(const std::filesystem::path& path);
+
+}  // namespace traverse::files

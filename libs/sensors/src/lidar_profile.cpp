@@ -1,0 +1,48 @@
+#include "traverse/sensors/lidar_profile.hpp"
+
+#include <array>
+
+#include "traverse/config/document.hpp"
+
+namespace traverse::sensors {
+
+using config::Range;
+
+void bind(config::Binder& b, LidarProfile& p) {
+  static constexpr std::array<std::pair<std::string_view, RingSource>, 3> kRingSources{
+      {{"data", RingSource::kData},
+       {"storage_order", RingSource::kStorageOrder},
+       {"elevation", RingSource::kElevation}}};
+  static constexpr std::array<std::pair<std::string_view, TimeSource>, 3> kTimeSources{
+      {{"data", TimeSource::kData},
+       {"azimuth", TimeSource::kAzimuth},
+       {"none", TimeSource::kNone}}};
+  static constexpr std::array<std::pair<std::string_view, Rotation>, 2> kRotations{
+      {{"clockwise", Rotation::kClockwise}, {"counterclockwise", Rotation::kCounterclockwise}}};
+
+  b.text("name", p.name, "what reports call this sensor");
+  b.integer("rings", p.rings, Range::between(0, 1024), "number of beams; 0 if unknown");
+  b.number("min_range_m", p.min_range_m, Range::non_negative(), "nearer points are dropped");
+  b.number("max_range_m", p.max_range_m, Range::positive(), "farther points are dropped");
+  b.number("intensity_full_scale", p.intensity_full_scale, Range::positive(),
+           "stored intensity of the brightest return");
+  b.choice("ring_source", p.ring_source, kRingSources, "where a point's ring number comes from");
+  b.numbers("elevations_deg", p.elevations_deg, "elevation of each beam, ring 0 first");
+  b.choice("time_source", p.time_source, kTimeSources, "where a point's time comes from");
+  b.number("sweep_s", p.sweep_s, Range::positive(), "duration of one revolution");
+  b.choice("rotation", p.rotation, kRotations, "turning direction of the head from above");
+  b.number("seam_azimuth_deg", p.seam_azimuth_deg, Range::between(-360, 360),
+           "azimuth at which a sweep begins and ends, counterclockwise from ahead");
+  b.number("stamp_fraction", p.stamp_fraction, Range::between(0, 1),
+           "share of the sweep that is over at the scan's stamp");
+  b.number("vertical_correction_deg", p.vertical_correction_deg, Range::between(-5, 5),
+           "added to the elevation of every point");
+}
+
+LidarProfile load_lidar_profile(const std::filesystem::path& yaml) {
+  LidarProfile profile;
+  config::read(config::Document::load(yaml), [&](config::Binder& b) { bind(b, profile); });
+  return profile;
+}
+
+}  // namespace traverse::sensors

@@ -1,0 +1,63 @@
+# How every target of the project is built: one place for the language level, the warnings, the
+# sanitizers and the naming of targets.
+include(GNUInstallDirs)
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+find_program(TRAVERSE_CCACHE ccache)
+if(TRAVERSE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${TRAVERSE_CCACHE})
+endif()
+
+# No AVX flags here: MRPT and Ceres of Debian are built for plain x86-64, and Eigen's heap alignment
+# differs with AVX, which corrupts memory across the library boundary.
+add_library(traverse_build_flags INTERFACE)
+target_compile_options(traverse_build_flags INTERFACE
+  -Wall -Wextra -Wconversion -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Werror
+  # GCC 12 sees overlaps in std::string operator+ (PR 105651) and, through Eigen's expression
+  # templates, uninitialised values that are not there; both only in optimised builds.
+  -Wno-restrict -Wno-maybe-uninitialized)
+if(TRAVERSE_SANITIZE)
+  target_compile_options(traverse_build_flags INTERFACE
+    -fsanitize=${TRAVERSE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all -O1)
+  target_link_options(traverse_build_flags INTERFACE -fsanitize=${TRAVERSE_SANITIZE})
+endif()
+
+# traverse_library(NAME SOURCES ... [USES ...] [PRIVATELY_USES ...])
+#
+# Defines traverse::NAME from libs/NAME. USES are the libraries that its public headers show,
+# PRIVATELY_USES those that stay behind its sources.
+function(traverse_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;USES;PRIVATELY_USES" ${ARGN})
+  add_library(traverse_${name} STATIC ${ARG_SOURCES})
+  add_library(traverse::${name} ALIAS traverse_${name})
+  target_include_directories(traverse_${name}
+    PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include
+    PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+  target_link_libraries(traverse_${name}
+    PUBLIC ${ARG_USES}
+    PRIVATE ${ARG_PRIVATELY_USES} traverse_build_flags)
+endfunction()
+
+# traverse_test(NAME SOURCES ... USES ...)
+#
+# Defines the GoogleTest program NAME_test and registers each of its cases with CTest.
+function(traverse_test name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;USES" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 600)
+  endif()
+  add_executable(${name}_test ${ARG_SOURCES})
+  target_include_directories(${name}_test PRIVATE ${CMAKE_SOURCE_DIR}/tests)
+  target_link_libraries(${name}_test
+    PRIVATE ${ARG_USES} GTest::gmock GTest::gtest_main traverse_build_flags)
+  gtest_discover_tests(${name}_test
+    TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+endfunction()

@@ -1,0 +1,93 @@
+#include "traverse/files/atomic_file.hpp"
+
+#include <csignal>
+#include <iterator>
+#include <string>
+#include <sys/resource.h>
+
+#include <gtest/gtest.h>
+
+#include "traverse/files/input_error.hpp"
+#include "traverse/files/text_file.hpp"
+
+#include "temporary_folder.hpp"
+
+namespace traverse::files {
+namespace {
+
+using testing::TemporaryFolder;
+
+std::size_t files_in(const std::filesystem::path& folder) {
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+/// No file may grow beyond a size while this lives: stands for a full disk.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    rlimit limit = before_;
+    limit.rlim_cur = bytes;
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+TEST(AtomicFile, AppearsOnlyAtCommit) {
+  const TemporaryFolder folder;
+  AtomicFile file(folder / "a.txt");
+  file.stream() << "whole";
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.txt"));
+  file.commit();
+  EXPECT_EQ(read_text(folder / "a.txt"), "whole");
+  EXPECT_EQ(files_in(folder.path()), 1U);
+}
+
+TEST(AtomicFile, WithoutCommitTheOldFileStaysAndNothingIsLeft) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.txt", "old");
+  { AtomicFile(folder / "a.txt").stream() << "half"; }
+  EXPECT_EQ(read_text(folder / "a.txt"), "old");
+  EXPECT_EQ(files_in(folder.path()), 1U);
+}
+
+TEST(AtomicFile, SaysWhyAFolderCannotBeWritten) {
+  const TemporaryFolder folder;
+  try {
+    AtomicFile file(folder / "missing" / "a.txt");
+    FAIL() << "no error";
+  } catch (const OutputError& error) {
+    EXPECT_NE(std::string(error.what()).find("No such file or directory"), std::string::npos);
+  }
+}
+
+TEST(AtomicFile, AFullDiskIsAnErrorAndLeavesNothing) {
+  const TemporaryFolder folder;
+  {
+    const FileSizeLimit limit(1000);
+    EXPECT_THROW(write_text(folder / "a.txt", std::string(1 << 20, 'x')), OutputError);
+  }
+  EXPECT_EQ(files_in(folder.path()), 0U);
+}
+
+TEST(MakeWritableFolder, MakesParentsAndRefusesAFileInTheWay) {
+  const TemporaryFolder folder;
+  make_writable_folder(folder / "a/b/c");
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "a/b/c"));
+  EXPECT_EQ(files_in(folder / "a/b/c"), 0U);
+  write_text(folder / "file", "");
+  EXPECT_THROW(make_writable_folder(folder / "file"), OutputError);
+  EXPECT_THROW(make_writable_folder(folder / "file/below"), OutputError);
+}
+
+}  // namespace
+}  // namespace traverse::files
