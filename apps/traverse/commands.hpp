@@ -1,0 +1,17 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+/// One function a subcommand, each in its own file: it declares the arguments and sets the callback
+/// that does the work. Errors are thrown and reported by main(); no algorithm stands here.
+namespace traverse::app {
+
+void add_convert(CLI::App& app);
+void add_evaluate(CLI::App& app);
+void add_info(CLI::App& app);
+void add_report(CLI::App& app);
+void add_run(CLI::App& app);
+
+}  // namespace traverse::app

@@ -1,0 +1,43 @@
+#include <cstdio>
+#include <exception>
+
+#include <CLI/CLI.hpp>
+
+#include "commands.hpp"
+
+namespace {
+
+constexpr int kFailure = 1;
+constexpr int kUsage = 2;
+
+constexpr const char* kExamples = R"(Examples:
+  traverse info DRIVE                              what is in a recording
+  traverse run DRIVE -o RUN                        trajectory, map, pictures and RUN/report.html
+  traverse evaluate RUN/trajectory.tum --reference RUN/reference.tum --rpe 10f
+  traverse convert DRIVE drive.rawlog              for MRPT's own tools
+
+`traverse COMMAND --help` explains a command. Exit status: 0 done, 1 failed, 2 wrong usage.)";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Traverse: lidar SLAM on recordings, with an accuracy report", "traverse"};
+  app.set_version_flag("--version", TRAVERSE_VERSION);
+  app.require_subcommand(1);
+  app.footer(kExamples);
+  traverse::app::add_run(app);
+  traverse::app::add_evaluate(app);
+  traverse::app::add_report(app);
+  traverse::app::add_info(app);
+  traverse::app::add_convert(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int status = app.exit(error);
+    return status == 0 ? 0 : kUsage;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "traverse: %s\n", error.what());
+    return kFailure;
+  }
+  return 0;
+}
