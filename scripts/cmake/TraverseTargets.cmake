@@ -26,7 +26,10 @@ target_compile_options(traverse_build_flags INTERFACE
   -Wno-restrict -Wno-maybe-uninitialized)
 if(TRAVERSE_SANITIZE)
   target_compile_options(traverse_build_flags INTERFACE
-    -fsanitize=${TRAVERSE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all -O1)
+    -fsanitize=${TRAVERSE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  # Under a sanitizer Eigen aligns heap memory by hand, which Debian's Ceres and MRPT would then free
+  # wrongly; the sanitizers' malloc is aligned to 16 bytes like glibc's.
+  target_compile_definitions(traverse_build_flags INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
   target_link_options(traverse_build_flags INTERFACE -fsanitize=${TRAVERSE_SANITIZE})
 endif()
 

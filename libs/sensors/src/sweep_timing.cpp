@@ -12,22 +12,34 @@ double sweep_fraction(double azimuth, const LidarProfile& profile) {
   return revolutions - std::floor(revolutions);
 }
 
+PointClock::PointClock(const LidarScan& scan, const LidarProfile& profile)
+    : scan_(scan),
+      profile_(profile),
+      knows_(profile.time_source == TimeSource::kAzimuth ||
+             (profile.time_source == TimeSource::kData && !scan.time.empty())) {}
+
+float PointClock::operator()(std::size_t i) const {
+  if (profile_.time_source == TimeSource::kData) return scan_.time[i];
+  const double azimuth = std::atan2(double{scan_.y[i]}, double{scan_.x[i]});
+  return static_cast<float>((sweep_fraction(azimuth, profile_) - profile_.stamp_fraction) *
+                            profile_.sweep_s);
+}
+
+double scan_interval(geometry::Stamp earlier, geometry::Stamp later,
+                     const LidarProfile& profile) {
+  const double stamped = geometry::seconds_between(earlier, later);
+  if (profile.time_source != TimeSource::kAzimuth) return stamped;
+  const double sweeps = std::round(stamped / profile.sweep_s);
+  const bool steady = sweeps >= 1 && std::abs(stamped / profile.sweep_s - sweeps) < 0.25;
+  return steady ? sweeps * profile.sweep_s : stamped;
+}
+
 std::vector<float> point_times(const LidarScan& scan, const LidarProfile& profile) {
-  switch (profile.time_source) {
-    case TimeSource::kData:
-      return scan.time;
-    case TimeSource::kNone:
-      return {};
-    case TimeSource::kAzimuth:
-      break;
-  }
+  const PointClock clock(scan, profile);
   std::vector<float> times;
+  if (!clock.knows()) return times;
   times.reserve(scan.size());
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    const double azimuth = std::atan2(double{scan.y[i]}, double{scan.x[i]});
-    times.push_back(static_cast<float>((sweep_fraction(azimuth, profile) - profile.stamp_fraction) *
-                                       profile.sweep_s));
-  }
+  for (std::size_t i = 0; i < scan.size(); ++i) times.push_back(clock(i));
   return times;
 }
 

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+
+#include "traverse/geometry/pose3.hpp"
+#include "traverse/geometry/stamp.hpp"
+#include "traverse/lidar/degeneracy.hpp"
+#include "traverse/lidar/scan_features.hpp"
+
+namespace traverse::lidar {
+
+/// Where the time of a frame went, milliseconds of wall time.
+struct StageTimes {
+  double organise = 0;  ///< rings, range, vertical correction
+  double features = 0;  ///< curvature, classes, thinning
+  double deskew = 0;
+  double index = 0;  ///< search trees of the local maps
+  double associate = 0;
+  double solve = 0;
+  double insert = 0;  ///< map insertion and dropping of far voxels
+  double start = 0;   ///< the search for the initial speed, charged to the first frame
+
+  double total() const {
+    return organise + features + deskew + index + associate + solve + insert + start;
+  }
+};
+
+/// How the registration of a frame went.
+struct RegistrationHealth {
+  std::size_t line_matches = 0;
+  std::size_t plane_matches = 0;
+  double residual_rms_m = 0;
+  double inlier_share = 0;
+  int steps = 0;       ///< of association and solve
+  int iterations = 0;  ///< of the solver, all steps together
+  Observability observability;
+  bool registered = false;  ///< false: the pose is the prediction (or the first frame's identity)
+};
+
+/// One scan's result.
+struct Frame {
+  std::size_t index = 0;  ///< of the scan among those fed, from 0
+  geometry::Stamp stamp;
+  geometry::Pose3 T_map_lidar;
+  geometry::Twist velocity = geometry::Twist::Zero();  ///< body twist a second, lidar frame: deskew
+  std::size_t points = 0;
+  DroppedPoints dropped;
+  std::array<std::size_t, kFeatureClasses> class_counts{};
+  std::size_t map_points = 0;
+  RegistrationHealth health;
+  StageTimes ms;
+};
+
+}  // namespace traverse::lidar

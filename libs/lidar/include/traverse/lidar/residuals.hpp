@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+
+/// The distances that lidar registration makes small, each one pure function of the point q in the
+/// map frame, with its derivative in q on request. Source: the table of line and plane residuals in
+/// docs/mathematics, sections "line" and "plane"; LOAM (2014) eqs. 2-3; F-LOAM (Wang et al., IROS
+/// 2021) eqs. 9-12.
+namespace traverse::lidar {
+
+/// A straight line in the map frame: any point of it and its direction.
+struct Line {
+  Eigen::Vector3d point;      ///< metres
+  Eigen::Vector3d direction;  ///< unit
+};
+
+/// A plane in the map frame: normal . q + offset = 0.
+struct Plane {
+  Eigen::Vector3d normal;  ///< unit
+  double offset;           ///< metres
+};
+
+/// r = u x (q - c), [3] metres: smooth everywhere, of rank 2. dr/dq = [u]x.
+Eigen::Vector3d line_vector_residual(const Line& line, const Eigen::Vector3d& q,
+                                     Eigen::Matrix3d* dr_dq = nullptr);
+
+/// r = |u x (q - c)|, metres. dr/dq = (u x (q - c))' [u]x / r, of rank 1; on the line itself, where
+/// the derivative does not exist, it is set to zero (a stationary point of the cost r^2).
+double line_distance_residual(const Line& line, const Eigen::Vector3d& q,
+                              Eigen::RowVector3d* dr_dq = nullptr);
+
+/// r = n . q + d, metres, signed. dr/dq = n'.
+double plane_residual(const Plane& plane, const Eigen::Vector3d& q,
+                      Eigen::RowVector3d* dr_dq = nullptr);
+
+}  // namespace traverse::lidar

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "traverse/lidar/association.hpp"
+#include "traverse/lidar/frame.hpp"
+#include "traverse/lidar/local_map.hpp"
+#include "traverse/lidar/registration.hpp"
+#include "traverse/lidar/scan_features.hpp"
+
+namespace traverse::lidar {
+
+struct MapOptions {
+  double edge_voxel_m = 0.4;  ///< the edge map keeps one point a cube of this edge
+  double planar_voxel_m = 0.8;
+  double radius_m = 100;  ///< of the local map
+};
+void bind(config::Binder& binder, MapOptions& options);
+
+struct ScanToMapOptions {
+  MapOptions map;
+  AssociationOptions association;
+  SolverOptions solver;
+  bool deskew = true;
+  int threads = 1;
+};
+
+/// The matches and the pose of one registration.
+struct Registration {
+  geometry::Pose3 T_map_lidar;
+  RegistrationHealth health;
+  Matches matches;  ///< of the last step
+};
+
+/// A local map of edge and planar points, and the registration of scans in it. A value: copies are
+/// independent, which the search for the initial speed uses.
+class ScanToMap {
+ public:
+  explicit ScanToMap(const ScanToMapOptions& options);
+
+  /// Associates and solves `steps` times from `guess`, deskewing with `velocity`.
+  Registration align(const ScanFeatures& features, const geometry::Pose3& guess_T_map_lidar,
+                     const geometry::Twist& velocity, int steps, StageTimes& ms);
+
+  /// Adds the scan's features at the pose and drops what is far behind.
+  void insert(const ScanFeatures& features, const geometry::Pose3& T_map_lidar,
+              const geometry::Twist& velocity, StageTimes& ms);
+
+  std::size_t size() const { return edge_map_.size() + planar_map_.size(); }
+  const LocalMap& edge_map() const { return edge_map_; }
+  const LocalMap& planar_map() const { return planar_map_; }
+
+ private:
+  TimedPoints at_stamp(const TimedPoints& points, const geometry::Twist& velocity) const;
+
+  ScanToMapOptions options_;
+  LocalMap edge_map_;
+  LocalMap planar_map_;
+  bool index_is_fresh_ = false;
+};
+
+}  // namespace traverse::lidar

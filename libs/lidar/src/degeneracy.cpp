@@ -1,0 +1,70 @@
+#include "traverse/lidar/degeneracy.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+
+namespace traverse::lidar {
+
+namespace {
+
+double median_range(const Matches& matches) {
+  std::vector<double> ranges;
+  ranges.reserve(matches.size());
+  for (const auto& match : matches.lines) ranges.push_back(match.p_lidar.norm());
+  for (const auto& match : matches.planes) ranges.push_back(match.p_lidar.norm());
+  if (ranges.empty()) return 1;
+  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
+  std::nth_element(ranges.begin(), middle, ranges.end());
+  return std::max(*middle, 1e-3);
+}
+
+}  // namespace
+
+geometry::Twist Observability::well_observed(const geometry::Twist& twist) const {
+  Vector6 scaled = twist;
+  scaled.head<3>() *= rotation_scale_m;
+  const Matrix6& V = directions;
+  Vector6 coordinates = V.transpose() * scaled;
+  coordinates.head(degenerate).setZero();
+  Vector6 kept = V * coordinates;
+  kept.head<3>() /= rotation_scale_m;
+  return kept;
+}
+
+Observability observability(const Matches& matches, const geometry::Pose3& T_map_lidar,
+                            double least_eigenvalue) {
+  Observability result;
+  if (matches.size() == 0) {
+    result.degenerate = 6;
+    return result;
+  }
+  result.rotation_scale_m = median_range(matches);
+  const Eigen::Matrix3d R_lidar_map = T_map_lidar.rotation.transpose();
+
+  // A unit normal n of the map sees the body twist as [p x n, n] in body axes. A line is seen
+  // through the two normals across it: I - u u' in place of n n'.
+  Matrix6 information = Matrix6::Zero();
+  const auto add = [&](const Eigen::Vector3d& p, const Eigen::Vector3d& n_map) {
+    const Eigen::Vector3d n = R_lidar_map * n_map;
+    Vector6 row;
+    row << p.cross(n) / result.rotation_scale_m, n;
+    information.selfadjointView<Eigen::Lower>().rankUpdate(row);
+  };
+  for (const auto& match : matches.planes) add(match.p_lidar, match.plane.normal);
+  for (const auto& match : matches.lines) {
+    const Eigen::Vector3d e = match.line.direction.unitOrthogonal();
+    add(match.p_lidar, e);
+    add(match.p_lidar, match.line.direction.cross(e));
+  }
+  information /= static_cast<double>(matches.size());
+
+  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(information);
+  result.eigenvalues = solver.eigenvalues();
+  result.directions = solver.eigenvectors();
+  result.degenerate = static_cast<int>((result.eigenvalues.array() < least_eigenvalue).count());
+  return result;
+}
+
+}  // namespace traverse::lidar

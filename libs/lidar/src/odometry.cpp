@@ -1,0 +1,126 @@
+#include "traverse/lidar/odometry.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "traverse/sensors/sweep_timing.hpp"
+
+#include "stopwatch.hpp"
+
+namespace traverse::lidar {
+
+namespace {
+
+ScanToMapOptions scan_to_map_options(const OdometryOptions& options, bool deskew) {
+  return {options.map, options.association, options.solver, deskew, options.threads};
+}
+
+std::string describe_deskew(const OdometryOptions& options, const sensors::LidarProfile& profile,
+                            bool motion_compensated) {
+  if (!options.deskew) return "off by configuration";
+  if (motion_compensated) return "off: the recording is motion-compensated";
+  if (profile.time_source == sensors::TimeSource::kNone) return "off: point times are unknown";
+  return "on";
+}
+
+}  // namespace
+
+void bind(config::Binder& b, OdometryOptions& o) {
+  using config::Range;
+  b.flag("deskew", o.deskew, "undo the motion within a sweep, unless the recording did");
+  b.group("features", "curvature and classes", [&](config::Binder& g) { bind(g, o.features); });
+  b.group("thinning", "the registration set", [&](config::Binder& g) { bind(g, o.thinning); });
+  b.group("map", "the local map", [&](config::Binder& g) { bind(g, o.map); });
+  b.group("association", "features to lines and planes of the map",
+          [&](config::Binder& g) { bind(g, o.association); });
+  b.group("solver", "the pose", [&](config::Binder& g) { bind(g, o.solver); });
+  b.integer("registration_steps", o.registration_steps, Range::between(1, 100),
+            "associations, with a solve each, of a frame");
+  b.integer("first_registration_steps", o.first_registration_steps, Range::between(1, 100),
+            "of the second frame; one fewer each frame");
+  b.group("start", "search for the initial speed", [&](config::Binder& g) { bind(g, o.start); });
+}
+
+LidarOdometry::LidarOdometry(const OdometryOptions& options, const sensors::LidarProfile& profile,
+                             bool motion_compensated)
+    : options_(options),
+      profile_(profile),
+      deskew_note_(describe_deskew(options, profile, motion_compensated)),
+      scan_to_map_(scan_to_map_options(options, deskew_note_ == "on")),
+      map_(scan_to_map_) {}
+
+std::vector<Frame> LidarOdometry::process(const sensors::LidarScan& scan) {
+  Prepared prepared;
+  Stopwatch watch;
+  const ScanLines lines = organise(scan, profile_);
+  watch.lap(prepared.ms.organise);
+  const Features features = extract_features(lines, options_.features);
+  prepared.features = collect_features(scan, profile_, lines, features, options_.thinning);
+  watch.lap(prepared.ms.features);
+
+  if (begun_) return {advance(prepared.features, prepared.ms)};
+  held_back_.push_back(std::move(prepared));
+  const bool enough = static_cast<int>(held_back_.size()) >= std::max(1, options_.start.scans);
+  return enough ? begin() : std::vector<Frame>{};
+}
+
+std::vector<Frame> LidarOdometry::finish() {
+  return begun_ || held_back_.empty() ? std::vector<Frame>{} : begin();
+}
+
+std::vector<Frame> LidarOdometry::begin() {
+  begun_ = true;
+  if (options_.start.scans >= 2 && held_back_.size() >= 2) {
+    Stopwatch watch;
+    std::vector<ScanFeatures> scans;
+    for (const Prepared& held : held_back_) scans.push_back(held.features);
+    velocity_ = find_initial_velocity(scans, profile_, scan_to_map_, options_.start);
+    watch.lap(held_back_.front().ms.start);
+  }
+  std::vector<Frame> frames;
+  for (const Prepared& held : held_back_) frames.push_back(advance(held.features, held.ms));
+  held_back_.clear();
+  return frames;
+}
+
+int LidarOdometry::steps_of_this_frame() const {
+  return std::max(options_.registration_steps,
+                  options_.first_registration_steps - static_cast<int>(frames_) + 1);
+}
+
+Frame LidarOdometry::advance(const ScanFeatures& features, const StageTimes& prepared) {
+  Frame frame;
+  frame.index = frames_;
+  frame.stamp = features.stamp;
+  frame.points = features.points;
+  frame.dropped = features.dropped;
+  frame.class_counts = features.class_counts;
+  frame.ms = prepared;
+
+  if (frames_ > 0) {
+    const double dt = sensors::scan_interval(last_stamp_, features.stamp, profile_);
+    const geometry::Pose3 predicted = T_map_last_ * geometry::exp_se3(dt * velocity_);
+    Registration registration =
+        map_.align(features, predicted, velocity_, steps_of_this_frame(), frame.ms);
+    frame.T_map_lidar = registration.T_map_lidar.orthonormalised();
+    frame.health = registration.health;
+    if (registration.health.registered) {
+      velocity_ = geometry::log_se3(T_map_last_.inverse() * frame.T_map_lidar) / dt;
+    }
+  }
+  frame.velocity = velocity_;
+  // A pose that is only predicted does not shape the map, unless there is no map yet.
+  const bool map_is_empty = map_.size() < static_cast<std::size_t>(options_.solver.least_matches);
+  if (frame.health.registered || frames_ == 0 || map_is_empty) {
+    map_.insert(features, frame.T_map_lidar, velocity_, frame.ms);
+  }
+  frame.map_points = map_.size();
+
+  T_map_last_ = frame.T_map_lidar;
+  last_stamp_ = frame.stamp;
+  ++frames_;
+  return frame;
+}
+
+}  // namespace traverse::lidar

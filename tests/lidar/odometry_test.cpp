@@ -1,0 +1,158 @@
+#include "traverse/lidar/odometry.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "traverse/sensors/rings.hpp"
+
+#include "lidar/simulated_drive.hpp"
+
+namespace traverse::lidar {
+namespace {
+
+using testing::SimulatedDrive;
+
+std::vector<Frame> run(const SimulatedDrive& drive, const OdometryOptions& options) {
+  LidarOdometry odometry(options, drive.scanner.profile, false);
+  std::vector<Frame> frames;
+  for (const auto& scan : drive.scans) {
+    for (const Frame& frame : odometry.process(scan)) frames.push_back(frame);
+  }
+  for (const Frame& frame : odometry.finish()) frames.push_back(frame);
+  return frames;
+}
+
+/// The defaults, with few hypotheses of the initial speed: the search has its own test.
+OdometryOptions quick_start() {
+  OdometryOptions options;
+  options.start.slowest_mps = 8;
+  options.start.fastest_mps = 16;
+  return options;
+}
+
+double worst_position_error(const std::vector<Frame>& frames, const SimulatedDrive& drive) {
+  double worst = 0;
+  for (const Frame& frame : frames) {
+    worst = std::max(worst,
+                     (frame.T_map_lidar.translation - drive.truth[frame.index].translation).norm());
+  }
+  return worst;
+}
+
+class StreetOdometry : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { street_ = new SimulatedDrive(simulation::street(60, 1), 24, 12); }
+  static void TearDownTestSuite() { delete street_; }
+  static const SimulatedDrive& street() { return *street_; }
+
+ private:
+  static inline SimulatedDrive* street_ = nullptr;
+};
+
+TEST_F(StreetOdometry, FollowsADriveThatStartsAtSpeed) {
+  const auto frames = run(street(), quick_start());
+  ASSERT_EQ(frames.size(), street().scans.size());
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    EXPECT_EQ(frames[i].index, i);
+    EXPECT_EQ(frames[i].stamp, street().scans[i].stamp);
+    EXPECT_EQ(frames[i].health.registered, i > 0);
+    EXPECT_EQ(frames[i].health.observability.degenerate, 0);
+  }
+  EXPECT_LT(worst_position_error(frames, street()), 0.1);  // over 28 m, range noise 2 cm
+}
+
+TEST_F(StreetOdometry, StartingFromRestLagsBehind) {
+  OdometryOptions options = quick_start();
+  options.start.scans = 0;
+  EXPECT_GT(worst_position_error(run(street(), options), street()), 0.3);
+}
+
+TEST_F(StreetOdometry, WithoutDeskewThePoseIsWorse) {
+  OdometryOptions options = quick_start();
+  options.deskew = false;
+  EXPECT_GT(worst_position_error(run(street(), options), street()),
+            2 * worst_position_error(run(street(), quick_start()), street()));
+}
+
+TEST_F(StreetOdometry, SameBitsOnRepeatAndForAnyNumberOfThreads) {
+  const auto one = run(street(), quick_start());
+  for (const int threads : {1, 2, 4}) {
+    OdometryOptions options = quick_start();
+    options.threads = threads;
+    const auto many = run(street(), options);
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      EXPECT_EQ(one[i].T_map_lidar.matrix(), many[i].T_map_lidar.matrix()) << threads;
+    }
+  }
+}
+
+TEST_F(StreetOdometry, ADroppedScanDoesNotBreakThePrediction) {
+  SimulatedDrive drive = street();
+  drive.scans.erase(drive.scans.begin() + 12, drive.scans.begin() + 15);  // a gap of 0.4 s
+  drive.truth.erase(drive.truth.begin() + 12, drive.truth.begin() + 15);
+  EXPECT_LT(worst_position_error(run(drive, quick_start()), drive), 0.1);
+}
+
+TEST_F(StreetOdometry, AScanWithoutFeaturesKeepsThePredictionAndSaysSo) {
+  SimulatedDrive drive = street();
+  const geometry::Stamp stamp = drive.scans[20].stamp;
+  drive.scans[20] = sensors::LidarScan{};
+  drive.scans[20].stamp = stamp;
+  const auto frames = run(drive, quick_start());
+  EXPECT_FALSE(frames[20].health.registered);
+  EXPECT_TRUE(frames[21].health.registered);
+  EXPECT_LT(worst_position_error(frames, drive), 0.15);
+}
+
+TEST_F(StreetOdometry, NotANumberPointsAreCountedNotUsed) {
+  SimulatedDrive drive = street();
+  for (auto& scan : drive.scans) {
+    for (std::size_t i = 0; i < scan.size(); i += 50) {
+      scan.x[i] = std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  const auto frames = run(drive, quick_start());
+  EXPECT_GT(frames[5].dropped.not_finite, 500U);
+  EXPECT_LT(worst_position_error(frames, drive), 0.1);
+}
+
+TEST_F(StreetOdometry, ARecordingShorterThanTheStartIsNotLost) {
+  for (const std::size_t count : {1U, 2U, 3U}) {
+    SimulatedDrive drive = street();
+    drive.scans.resize(count);
+    const auto frames = run(drive, quick_start());
+    ASSERT_EQ(frames.size(), count);
+    EXPECT_LT(worst_position_error(frames, drive), 0.1);
+  }
+}
+
+TEST(Odometry, ATunnelIsReportedDegenerateAndTheEstimateDoesNotJump) {
+  const SimulatedDrive drive(simulation::tunnel(100), 20, 8);
+  const auto frames = run(drive, quick_start());
+  for (std::size_t i = 5; i < frames.size(); ++i) {
+    EXPECT_GE(frames[i].health.observability.degenerate, 1) << i;
+    const double step =
+        (frames[i].T_map_lidar.translation - frames[i - 1].T_map_lidar.translation).norm();
+    EXPECT_LT(step, 0.3) << i;
+  }
+}
+
+TEST(Odometry, SaysWhyItDoesNotDeskew) {
+  sensors::LidarProfile profile;
+  EXPECT_EQ(LidarOdometry({}, profile, false).deskew_note(), "on");
+  EXPECT_EQ(LidarOdometry({}, profile, true).deskew_note(),
+            "off: the recording is motion-compensated");
+  profile.time_source = sensors::TimeSource::kNone;
+  EXPECT_EQ(LidarOdometry({}, profile, false).deskew_note(), "off: point times are unknown");
+}
+
+TEST(Odometry, AScanWithoutRingsIsAnError) {
+  sensors::LidarScan scan;
+  scan.x = scan.y = scan.z = {1, 2, 3};
+  LidarOdometry odometry({}, sensors::LidarProfile{}, false);
+  EXPECT_THROW(odometry.process(scan), sensors::NoRings);
+}
+
+}  // namespace
+}  // namespace traverse::lidar
