@@ -45,8 +45,30 @@ Eigen::Vector3d towards(const Eigen::Vector3d& origin_side, const Eigen::Vector3
 
 }  // namespace
 
-void AnalyticScene::add(const Rectangle& rectangle) { rectangles_.push_back(rectangle); }
-void AnalyticScene::add(const Pole& pole) { poles_.push_back(pole); }
+void AnalyticScene::add(const Rectangle& rectangle) {
+  const Eigen::Vector3d half_diagonal = 0.5 * (rectangle.u + rectangle.v);
+  rectangles_.push_back(rectangle);
+  rectangle_bounds_.push_back({rectangle.corner + half_diagonal, half_diagonal.squaredNorm()});
+}
+
+void AnalyticScene::add(const Pole& pole) {
+  const double half_height = 0.5 * pole.height_m;
+  poles_.push_back(pole);
+  pole_bounds_.push_back({pole.base + Eigen::Vector3d(0, 0, half_height),
+                          half_height * half_height + pole.radius_m * pole.radius_m});
+}
+
+bool AnalyticScene::passes(const Bound& bound, const Eigen::Vector3d& origin,
+                           const Eigen::Vector3d& direction) {
+  // Plain numbers: this is the inner loop of every simulated ray.
+  const double x = bound.centre.x() - origin.x();
+  const double y = bound.centre.y() - origin.y();
+  const double z = bound.centre.z() - origin.z();
+  const double along = x * direction.x() + y * direction.y() + z * direction.z();
+  const double squared_distance = x * x + y * y + z * z;
+  const bool inside = squared_distance <= bound.squared_radius;
+  return !inside && (along < 0 || squared_distance - along * along > bound.squared_radius);
+}
 
 void AnalyticScene::add_box(const Eigen::Vector3d& base_centre, const Eigen::Vector3d& size,
                             double yaw, double reflectivity) {
@@ -67,13 +89,17 @@ std::optional<Hit> AnalyticScene::first_hit(const Eigen::Vector3d& origin,
                                             double max_distance_m) const {
   std::optional<Hit> nearest;
   double limit = max_distance_m;
-  for (const Rectangle& r : rectangles_) {
+  for (std::size_t i = 0; i < rectangles_.size(); ++i) {
+    if (passes(rectangle_bounds_[i], origin, direction)) continue;
+    const Rectangle& r = rectangles_[i];
     const auto distance = distance_to(r, origin, direction);
     if (!distance || *distance > limit) continue;
     limit = *distance;
     nearest = Hit{limit, towards(-direction, r.u.cross(r.v).normalized()), r.reflectivity};
   }
-  for (const Pole& pole : poles_) {
+  for (std::size_t i = 0; i < poles_.size(); ++i) {
+    if (passes(pole_bounds_[i], origin, direction)) continue;
+    const Pole& pole = poles_[i];
     const auto distance = distance_to(pole, origin, direction);
     if (!distance || *distance > limit) continue;
     limit = *distance;

@@ -48,8 +48,19 @@ class AnalyticScene {
   const std::vector<Pole>& poles() const { return poles_; }
 
  private:
+  /// A sphere around a surface: most rays miss most surfaces, and this tells at once.
+  struct Bound {
+    Eigen::Vector3d centre;
+    double squared_radius;
+  };
+  /// The ray certainly misses the sphere.
+  static bool passes(const Bound& bound, const Eigen::Vector3d& origin,
+                     const Eigen::Vector3d& direction);
+
   std::vector<Rectangle> rectangles_;
+  std::vector<Bound> rectangle_bounds_;
   std::vector<Pole> poles_;
+  std::vector<Bound> pole_bounds_;
 };
 
 }  // namespace traverse::simulation
