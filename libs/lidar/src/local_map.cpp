@@ -6,7 +6,7 @@
 
 #include <nanoflann.hpp>
 
-#include "voxel_key.hpp"
+#include "traverse/geometry/voxel.hpp"
 
 namespace traverse::lidar {
 
@@ -35,7 +35,8 @@ using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<do
 }  // namespace
 
 struct LocalMap::Grid {
-  tsl::robin_map<std::uint64_t, std::uint32_t, VoxelHash> voxels;  // key -> place in points_
+  tsl::robin_map<std::uint64_t, std::uint32_t, geometry::VoxelHash>
+      voxels;  // key -> place in points_
 };
 
 struct LocalMap::Index {
@@ -70,7 +71,7 @@ LocalMap::~LocalMap() = default;
 void LocalMap::insert(std::span<const Eigen::Vector3d> points_map) {
   index_.reset();
   for (const Eigen::Vector3d& p : points_map) {
-    const std::uint64_t key = voxel_key(p, 1 / voxel_m_);
+    const std::uint64_t key = geometry::voxel_key(p, voxel_m_);
     const auto [entry, is_new] =
         grid_->voxels.try_emplace(key, static_cast<std::uint32_t>(points_.size()));
     if (is_new) {

@@ -5,9 +5,8 @@
 #include <tsl/robin_set.h>
 #include <vector>
 
+#include "traverse/geometry/voxel.hpp"
 #include "traverse/sensors/sweep_timing.hpp"
-
-#include "voxel_key.hpp"
 
 namespace traverse::lidar {
 
@@ -41,10 +40,10 @@ void bind(config::Binder& b, ThinningOptions& o) {
 
 TimedPoints thinned(const TimedPoints& points, double voxel_m) {
   TimedPoints kept;
-  tsl::robin_set<std::uint64_t, VoxelHash> seen;
+  tsl::robin_set<std::uint64_t, geometry::VoxelHash> seen;
   seen.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!seen.insert(voxel_key(points.point(i), 1 / voxel_m)).second) continue;
+    if (!seen.insert(geometry::voxel_key(points.point(i), voxel_m)).second) continue;
     kept.push_back(points.x[i], points.y[i], points.z[i], points.time[i]);
   }
   return kept;

@@ -25,8 +25,7 @@ float PointClock::operator()(std::size_t i) const {
                             profile_.sweep_s);
 }
 
-double scan_interval(geometry::Stamp earlier, geometry::Stamp later,
-                     const LidarProfile& profile) {
+double scan_interval(geometry::Stamp earlier, geometry::Stamp later, const LidarProfile& profile) {
   const double stamped = geometry::seconds_between(earlier, later);
   if (profile.time_source != TimeSource::kAzimuth) return stamped;
   const double sweeps = std::round(stamped / profile.sweep_s);

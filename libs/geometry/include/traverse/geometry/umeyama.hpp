@@ -25,7 +25,8 @@ class DegenerateAlignment : public std::runtime_error {
 /// partners y with the least sum of squares. Source: Umeyama, "Least-squares estimation of
 /// transformation parameters between two point patterns", PAMI 1991, eqs. 40-43; degenerate if
 /// fewer than two singular values of the covariance exceed the double epsilon, as in evo.
-/// \throws std::invalid_argument if the sizes differ, are zero, or a point is not finite; DegenerateAlignment.
+/// \throws std::invalid_argument if the sizes differ, are zero, or a point is not finite;
+/// DegenerateAlignment.
 Similarity umeyama(std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> y,
                    bool with_scale);
 

@@ -31,9 +31,10 @@ class PointClock {
 };
 
 /// Seconds from one scan to the next. A head that turns steadily yields one scan a revolution, so
-/// when times come from the azimuth and the stamps are within a quarter revolution of a whole number
-/// of sweeps, that number of sweeps is the interval: recordings stamp scans on arrival, with jitter
-/// (10 ms in KITTI's synchronised drives) that would pass for acceleration. Otherwise the stamps say.
+/// when times come from the azimuth and the stamps are within a quarter revolution of a whole
+/// number of sweeps, that number of sweeps is the interval: recordings stamp scans on arrival, with
+/// jitter (10 ms in KITTI's synchronised drives) that would pass for acceleration. Otherwise the
+/// stamps say.
 double scan_interval(geometry::Stamp earlier, geometry::Stamp later, const LidarProfile& profile);
 
 /// The time of every point in seconds after the stamp; empty when the clock does not know.
