@@ -11,6 +11,7 @@ namespace traverse::app {
 void add_convert(CLI::App& app);
 void add_evaluate(CLI::App& app);
 void add_info(CLI::App& app);
+void add_pipelines(CLI::App& app);
 void add_report(CLI::App& app);
 void add_run(CLI::App& app);
 

@@ -101,6 +101,14 @@ TEST(Document, ABadOverrideNamesItself) {
   }
 }
 
+TEST(Document, ScalarIsAPlainValueOfTheTopLevelOnly) {
+  const Document document = Document::parse("label: x y\ninner: {gate_m: 5}\nlist: [1]\n", "x.yaml");
+  EXPECT_EQ(document.scalar("label"), "x y");
+  EXPECT_FALSE(document.scalar("inner"));
+  EXPECT_FALSE(document.scalar("list"));
+  EXPECT_FALSE(document.scalar("gate_m"));
+}
+
 TEST(Document, ChildIsTheMappingBelowAKey) {
   const Document document = Document::parse("inner: {gate_m: 5}\nlabel: x\n", "x.yaml");
   EXPECT_THAT(document.keys(), ElementsAre("inner", "label"));

@@ -118,6 +118,14 @@ bool Document::has(std::string_view top_level_key) const {
   return tree_->root.find(top_level_key) != nullptr;
 }
 
+std::optional<std::string> Document::scalar(std::string_view top_level_key) const {
+  const Entry* entry = tree_->root.find(top_level_key);
+  if (entry == nullptr || entry->is_mapping || !entry->scalar_or_sequence.IsScalar()) {
+    return std::nullopt;
+  }
+  return entry->scalar_or_sequence.Scalar();
+}
+
 Document Document::child(std::string_view top_level_key) const {
   Document result;
   const Entry* entry = tree_->root.find(top_level_key);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,8 @@ class Document {
   void set(std::string_view assignment);
 
   bool has(std::string_view top_level_key) const;
+  /// The plain value of `top_level_key`; nothing if there is none or it is not one value.
+  std::optional<std::string> scalar(std::string_view top_level_key) const;
   /// The mapping below `top_level_key`, empty if there is none. \throws files::InputError if the
   /// key holds something else.
   Document child(std::string_view top_level_key) const;

@@ -1,0 +1,157 @@
+#include "traverse/pipeline/run.hpp"
+
+#include <atomic>
+#include <csignal>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "traverse/report/run_report.hpp"
+
+#include "command_line.hpp"
+#include "commands.hpp"
+#include "installed_files.hpp"
+#include "progress_bar.hpp"
+#include "recording_options.hpp"
+#include "run_summary.hpp"
+
+namespace traverse::app {
+
+namespace {
+
+std::atomic<bool> stop_requested{false};
+
+/// While it lives, the first SIGINT or SIGTERM asks for an orderly end; a second one kills.
+class OrderlyStop {
+ public:
+  OrderlyStop() {
+    std::signal(SIGINT, on_signal);
+    std::signal(SIGTERM, on_signal);
+  }
+  ~OrderlyStop() {
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+  }
+  OrderlyStop(const OrderlyStop&) = delete;
+  OrderlyStop& operator=(const OrderlyStop&) = delete;
+
+ private:
+  static void on_signal(int signal) {
+    stop_requested = true;
+    std::signal(signal, SIG_DFL);
+  }
+};
+
+struct RunArguments {
+  RecordingOptions recording;
+  std::string folder;
+  pipeline::PresetRequest preset;
+  std::string reference;
+  std::string reference_frame;
+  std::size_t first = 0;
+  std::optional<std::size_t> last;
+  int threads = 1;
+  bool report = true;
+  bool hash = true;
+};
+
+std::size_t expected_frames(const dataset::Source& source, const pipeline::RunOptions& options) {
+  const std::size_t scans = source.info().expected_scans;
+  if (scans <= options.first) return 0;
+  return std::min(scans - 1, options.last) - options.first + 1;
+}
+
+void run_recording(RunArguments& arguments, const std::vector<std::string>& command) {
+  if (!arguments.reference.empty()) {
+    const auto absolute = std::filesystem::absolute(arguments.reference);
+    arguments.recording.statements.push_back("reference.file=" + absolute.string());
+  }
+  if (!arguments.reference_frame.empty()) {
+    arguments.recording.statements.push_back("reference.frame=" + arguments.reference_frame);
+  }
+  const InstalledFiles installed = find_installed_files();
+  const pipeline::Preset preset = pipeline::load_preset(arguments.preset, installed.share);
+  pipeline::resolve_settings(preset);  // a wrong setting is told before anything is opened
+  const std::unique_ptr<dataset::Source> source = arguments.recording.open();
+  pipeline::Pipeline pipeline = pipeline::make_pipeline(preset, source->info(), arguments.threads);
+
+  pipeline::RunOptions options;
+  options.first = arguments.first;
+  if (arguments.last) options.last = *arguments.last;
+  options.threads = arguments.threads;
+  options.hash_recording = arguments.hash;
+  options.command = command;
+
+  const pipeline::RunFolder folder{arguments.folder};
+  const OrderlyStop orderly_stop;
+  ProgressBar bar(pipeline.name, expected_frames(*source, options), "frames");
+  pipeline::RunObserver observer;
+  observer.stop = &stop_requested;
+  observer.frame = [&](std::size_t done) { bar.update(done); };
+  observer.stage = [&](const std::string&) { bar.finish(); };
+  const pipeline::RunRecord record = pipeline::run(*source, pipeline, folder, options, observer);
+
+  if (arguments.report) report::write_run_report(folder.path, installed.templates);
+  print_run_summary(record, folder, arguments.report);
+  if (!record.evaluation_error.empty()) {
+    throw std::runtime_error("the run is complete, but it could not be compared with " +
+                             record.reference_file.value_or("its reference") + ": " +
+                             record.evaluation_error);
+  }
+}
+
+constexpr const char* kExamples = R"(Examples:
+  traverse run 2011_09_26_drive_0001 -o RUN            a recording that states its own facts
+  traverse run sequences/00 -o RUN --last 499          the first 500 frames of KITTI odometry 00
+  traverse run drive.rawlog -o RUN --pipeline floam --set solver.line_residual=vector
+  traverse run drive -o RUN --reference truth.tum --threads 4
+Ctrl-C ends the run in order: what is done so far is written and evaluated.
+`traverse pipelines` lists the presets, `traverse pipelines floam` their settings.)";
+
+}  // namespace
+
+void add_run(CLI::App& app) {
+  auto arguments = std::make_shared<RunArguments>();
+  CLI::App* run = app.add_subcommand(
+      "run", "estimate the trajectory of a recording; write map, pictures and report");
+  run->footer(kExamples);
+  add_recording_options(*run, arguments->recording);
+  run->add_option("-o,--output", arguments->folder, "run folder to write")
+      ->required()
+      ->type_name("RUN");
+  run->add_option("--pipeline", arguments->preset.name, "preset, or a YAML file in its form")
+      ->capture_default_str();
+  run->add_option("--config", arguments->preset.config_files, "YAML file laid over the preset")
+      ->type_name("FILE")
+      ->check(CLI::ExistingFile);
+  run->add_option("--set", arguments->preset.assignments, "one setting, stronger than any file")
+      ->type_name("KEY=VALUE")
+      ->expected(1);
+  run->add_option("--first", arguments->first, "first frame, counted from 0")
+      ->capture_default_str();
+  run->add_option("--last", arguments->last, "last frame, included");
+  run->add_option("--threads", arguments->threads, "threads; the result does not depend on it")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  run->add_option("--reference", arguments->reference, "reference trajectory (TUM, KITTI, EuRoC)")
+      ->type_name("FILE")
+      ->check(CLI::ExistingFile);
+  run->add_option("--reference-frame", arguments->reference_frame,
+                  "what moves along the reference: body, lidar or camera")
+      ->check(CLI::IsMember({"body", "lidar", "camera"}));
+  run->add_flag("!--no-report", arguments->report, "no pictures and no report.html");
+  run->add_flag("!--no-hash", arguments->hash, "do not compute the recording's SHA-256");
+  run->callback([arguments, run] {
+    if (arguments->last && *arguments->last < arguments->first) {
+      throw CLI::ValidationError("--last", "is before --first");
+    }
+    run_recording(*arguments, command_line());
+  });
+}
+
+}  // namespace traverse::app

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "traverse/geometry/pose3.hpp"
+#include "traverse/geometry/stamp.hpp"
+#include "traverse/sensors/measurement.hpp"
+
+namespace traverse::pipeline {
+
+/// What an estimator says of one moment of the recording.
+struct PoseFrame {
+  geometry::Stamp stamp;
+  geometry::Pose3 T_map_body;
+  geometry::Twist velocity = geometry::Twist::Zero();  ///< body twist a second: rad/s, m/s
+  double milliseconds = 0;     ///< of wall time that the estimate took, reading not included
+  std::vector<double> record;  ///< the health record: one value for each of columns()
+};
+
+/// A scan as the estimator used it: unusable points gone, corrected, deskewed.
+struct UsedScan {
+  std::vector<float> x, y, z;               ///< metres, body frame at the frame's stamp
+  std::vector<float> intensity;             ///< 0 .. 1; empty, or one a point
+  std::vector<std::uint8_t> feature_class;  ///< lidar::FeatureClass; empty, or one a point
+};
+
+/// Something the estimator decided about a recording, and why: "deskew", "on".
+struct Decision {
+  std::string name;
+  std::string value;
+};
+
+/// An algorithm that turns measurements into poses. Its result depends on the measurements and its
+/// configuration alone: not on the clock, not on the number of threads.
+class Estimator {
+ public:
+  virtual ~Estimator() = default;
+
+  /// Names of the health record's values, with the unit as suffix ("residual_rms_m").
+  virtual const std::vector<std::string>& columns() const = 0;
+
+  /// Takes the next measurement. \returns the frames that are now known, in order of time: often
+  /// one, none for a measurement that completes no frame, several after a held-back start.
+  virtual std::vector<PoseFrame> process(const sensors::Measurement& measurement) = 0;
+
+  /// The frames still held back at the end of the recording.
+  virtual std::vector<PoseFrame> finish() = 0;
+
+  /// The scan of `frame` as it was used. \param with_classes also find its feature classes
+  virtual UsedScan used_scan(const sensors::LidarScan& scan, const PoseFrame& frame,
+                             bool with_classes) const = 0;
+
+  /// What used_scan() does to points, in words: "elevation + 0.205 deg, deskewed".
+  virtual std::string points_are() const = 0;
+
+  virtual std::vector<Decision> decisions() const = 0;
+};
+
+}  // namespace traverse::pipeline

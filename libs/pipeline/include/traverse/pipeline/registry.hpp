@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "traverse/config/settings.hpp"
+#include "traverse/dataset/source.hpp"
+#include "traverse/pipeline/estimator.hpp"
+#include "traverse/pipeline/preset.hpp"
+
+namespace traverse::pipeline {
+
+/// One setting of the configuration and what the preset says of it.
+struct ResolvedSetting {
+  config::Setting setting;
+  config::Setting::Value in_preset;
+
+  bool is_changed() const { return setting.value != in_preset; }
+};
+
+/// An estimator ready to run on one recording.
+struct Pipeline {
+  std::string name;
+  std::string description;
+  std::unique_ptr<Estimator> estimator;
+  std::vector<ResolvedSetting> settings;
+};
+
+/// Every setting of the preset's algorithm with its resolved value.
+/// \throws files::InputError for an unknown estimator or a wrong setting (file, line, key).
+std::vector<ResolvedSetting> resolve_settings(const Preset& preset);
+
+/// Builds the estimator that the preset names for the recording's sensors.
+/// \throws files::InputError for an unknown estimator or a wrong setting (file, line, key);
+/// std::runtime_error if the recording lacks a sensor that the estimator needs.
+Pipeline make_pipeline(const Preset& preset, const dataset::RecordingInfo& recording, int threads);
+
+}  // namespace traverse::pipeline

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "traverse/dataset/source.hpp"
+#include "traverse/pipeline/registry.hpp"
+#include "traverse/pipeline/run_folder.hpp"
+#include "traverse/pipeline/run_record.hpp"
+
+namespace traverse::pipeline {
+
+struct RunOptions {
+  std::size_t first = 0;  ///< frames are counted from 0, both ends are included
+  std::size_t last = std::numeric_limits<std::size_t>::max();
+  int threads = 1;
+  bool hash_recording = true;
+  double map_voxel_m = 0.2;
+  std::size_t most_map_points = 20'000'000;
+  std::vector<std::string> command;  ///< for the record
+};
+
+/// What a run tells while it works.
+struct RunObserver {
+  /// A frame is done; `done` of all frames so far.
+  std::function<void(std::size_t done)> frame = [](std::size_t) {};
+  /// The frames are through; what follows takes time too: "map", "evaluation".
+  std::function<void(const std::string& stage)> stage = [](const std::string&) {};
+  /// Set from a signal handler: the run ends after the present frame and writes what it has.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// Feeds the recording to the pipeline's estimator and writes the run folder: trajectory,
+/// reference, frames.csv, maps, a sample scan, evaluation.json and, last, run.json.
+/// \returns the record that was written; its status is kOk or kInterrupted
+/// \throws what reading, estimating and writing throw; run.json then says "failed" and why, if the
+/// folder can still be written.
+RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& folder,
+              const RunOptions& options, const RunObserver& observer);
+
+}  // namespace traverse::pipeline

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "traverse/dataset/source.hpp"
+#include "traverse/pipeline/estimator.hpp"
+#include "traverse/pipeline/provenance.hpp"
+#include "traverse/pipeline/registry.hpp"
+
+namespace traverse::pipeline {
+
+enum class RunStatus { kOk, kFailed, kInterrupted };
+
+/// Milliseconds of one stage over the frames.
+struct StageTiming {
+  std::string name;  ///< of the column without "_ms"
+  double median = 0;
+  double mean = 0;
+  double p95 = 0;
+  double max = 0;
+};
+
+/// Everything about a run but its results: run.json.
+struct RunRecord {
+  RunStatus status = RunStatus::kFailed;
+  std::string reason;  ///< of a failure or interruption
+
+  std::vector<std::string> command;
+  std::string pipeline;
+  std::string pipeline_description;
+  std::vector<ResolvedSetting> settings;
+  int threads = 1;
+
+  dataset::RecordingInfo recording;
+  std::uintmax_t recording_bytes = 0;
+  std::string recording_sha256;  ///< empty if it was not asked for
+  std::optional<std::string> reference_file;
+  std::string reference_description;
+  std::string points_are;  ///< what was done to the points that were used
+  std::vector<Decision> decisions;
+
+  std::size_t frames_read = 0;
+  std::size_t frames_used = 0;
+  std::size_t first_frame = 0;
+  std::size_t sample_frame = 0;  ///< the frame of scan.ply, counted like first_frame
+  dataset::SkippedRecords skipped;
+
+  double frame_median_ms = 0;
+  double frame_p95_ms = 0;
+  double frame_max_ms = 0;
+  double frames_total_ms = 0;
+  std::vector<StageTiming> stages;
+
+  std::size_t map_points = 0;
+  double map_voxel_m = 0;
+  std::size_t keyframes = 0;
+
+  std::string evaluation_error;  ///< why there is no comparison although there is a reference
+
+  std::string started_utc;
+  double wall_seconds = 0;
+  double peak_memory_mb = 0;
+};
+
+/// Fills the timing figures from a frame table with columns "..._ms" and "total_ms".
+class FrameTable;
+void summarise_timing(const FrameTable& frames, RunRecord& record);
+
+/// The record as JSON text; docs/run-folder.md describes it.
+std::string to_json(const RunRecord& record, const BuildInfo& build, const HostInfo& host);
+
+/// SHA-256 of the resolved settings as they stand in run.json: equal for equal configurations.
+std::string configuration_sha256(const std::vector<ResolvedSetting>& settings);
+
+}  // namespace traverse::pipeline

@@ -1,0 +1,166 @@
+#include "lidar_estimator.hpp"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <stdexcept>
+#include <string_view>
+#include <variant>
+
+#include <fmt/format.h>
+
+namespace traverse::pipeline {
+
+namespace {
+
+const sensors::MountedSensor& first_lidar(const dataset::RecordingInfo& recording) {
+  const sensors::MountedSensor* sensor = recording.rig.first(sensors::SensorKind::kLidar);
+  if (sensor == nullptr || !sensor->lidar) {
+    throw std::runtime_error(recording.path.string() +
+                             ": no 3-D lidar in this recording, which lidar odometry needs");
+  }
+  return *sensor;
+}
+
+/// The health record of a frame: its columns and their values are named in this one place.
+template <typename Add>
+void for_each_value(const lidar::Frame& frame, const Add& add) {
+  using lidar::FeatureClass;
+  const auto count = [](std::size_t n) { return static_cast<double>(n); };
+  const auto classified = [&](FeatureClass c) {
+    return count(frame.class_counts[static_cast<std::size_t>(c)]);
+  };
+  add("points", count(frame.points));
+  add("dropped_not_finite", count(frame.dropped.not_finite));
+  add("dropped_at_origin", count(frame.dropped.at_origin));
+  add("dropped_out_of_range", count(frame.dropped.out_of_range));
+  add("dropped_beyond_rings", count(frame.dropped.beyond_profile_rings));
+  add("sharp", classified(FeatureClass::kSharp));
+  add("less_sharp", classified(FeatureClass::kLessSharp));
+  add("flat", classified(FeatureClass::kFlat));
+  add("less_flat", classified(FeatureClass::kLessFlat));
+
+  const lidar::RegistrationHealth& health = frame.health;
+  add("registered", health.registered ? 1 : 0);
+  add("line_matches", count(health.line_matches));
+  add("plane_matches", count(health.plane_matches));
+  add("residual_rms_m", health.residual_rms_m);
+  add("inlier_share", health.inlier_share);
+  add("registration_steps", health.steps);
+  add("solver_iterations", health.iterations);
+  add("degenerate_directions", health.observability.degenerate);
+  add("rotation_scale_m", health.observability.rotation_scale_m);
+  static constexpr std::array<std::string_view, 6> kAxes{"rx", "ry", "rz", "tx", "ty", "tz"};
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    add(fmt::format("eigenvalue_{}", k + 1), health.observability.eigenvalues[k]);
+  }
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    add(fmt::format("weakest_direction_{}", kAxes[static_cast<std::size_t>(k)]),
+        health.observability.directions(k, 0));
+  }
+  add("map_points", count(frame.map_points));
+  add("speed_mps", frame.velocity.tail<3>().norm());
+
+  add("start_ms", frame.ms.start);
+  add("organise_ms", frame.ms.organise);
+  add("features_ms", frame.ms.features);
+  add("deskew_ms", frame.ms.deskew);
+  add("index_ms", frame.ms.index);
+  add("associate_ms", frame.ms.associate);
+  add("solve_ms", frame.ms.solve);
+  add("insert_ms", frame.ms.insert);
+}
+
+/// The body twist of a rigid vehicle from that of a sensor on it: the adjoint of T_body_sensor.
+geometry::Twist moved_to_body(const geometry::Twist& velocity_sensor,
+                              const geometry::Pose3& T_body_sensor) {
+  geometry::Twist velocity;
+  velocity.head<3>() = T_body_sensor.rotation * velocity_sensor.head<3>();
+  velocity.tail<3>() = T_body_sensor.rotation * velocity_sensor.tail<3>() +
+                       T_body_sensor.translation.cross(Eigen::Vector3d(velocity.head<3>()));
+  return velocity;
+}
+
+}  // namespace
+
+LidarEstimator::LidarEstimator(const lidar::OdometryOptions& options,
+                               const dataset::RecordingInfo& recording)
+    : options_(options),
+      sensor_(first_lidar(recording)),
+      odometry_(options, *sensor_.lidar, recording.motion_compensated) {}
+
+const std::vector<std::string>& LidarEstimator::columns() const {
+  static const std::vector<std::string> kColumns = [] {
+    std::vector<std::string> names;
+    for_each_value(lidar::Frame{},
+                   [&](std::string_view name, double) { names.emplace_back(name); });
+    return names;
+  }();
+  return kColumns;
+}
+
+std::vector<PoseFrame> LidarEstimator::process(const sensors::Measurement& measurement) {
+  const auto* scan = std::get_if<std::shared_ptr<const sensors::LidarScan>>(&measurement);
+  if (scan == nullptr || (*scan)->sensor != sensor_.label) return {};
+  return to_body(odometry_.process(**scan));
+}
+
+std::vector<PoseFrame> LidarEstimator::finish() { return to_body(odometry_.finish()); }
+
+std::vector<PoseFrame> LidarEstimator::to_body(const std::vector<lidar::Frame>& frames) const {
+  std::vector<PoseFrame> result;
+  for (const lidar::Frame& frame : frames) {
+    PoseFrame pose;
+    pose.stamp = frame.stamp;
+    pose.T_map_body = sensor_.T_body_sensor * frame.T_map_lidar * sensor_.T_body_sensor.inverse();
+    pose.velocity = moved_to_body(frame.velocity, sensor_.T_body_sensor);
+    pose.milliseconds = frame.ms.total();
+    for_each_value(frame, [&](std::string_view, double value) { pose.record.push_back(value); });
+    result.push_back(std::move(pose));
+  }
+  return result;
+}
+
+UsedScan LidarEstimator::used_scan(const sensors::LidarScan& scan, const PoseFrame& frame,
+                                   bool with_classes) const {
+  const geometry::Pose3 T_sensor_body = sensor_.T_body_sensor.inverse();
+  const geometry::Twist velocity = odometry_.deskew_note() == "on"
+                                       ? moved_to_body(frame.velocity, T_sensor_body)
+                                       : geometry::Twist(geometry::Twist::Zero());
+  const lidar::CorrectedScan points =
+      with_classes ? corrected_and_classified(scan, *sensor_.lidar, velocity, options_.features)
+                   : corrected(scan, *sensor_.lidar, velocity);
+
+  UsedScan used;
+  for (auto* values : {&used.x, &used.y, &used.z}) values->reserve(points.x.size());
+  const auto scale = static_cast<float>(1 / sensor_.lidar->intensity_full_scale);
+  for (std::size_t i = 0; i < points.x.size(); ++i) {
+    const Eigen::Vector3f p =
+        (sensor_.T_body_sensor * Eigen::Vector3d(points.x[i], points.y[i], points.z[i]))
+            .cast<float>();
+    used.x.push_back(p.x());
+    used.y.push_back(p.y());
+    used.z.push_back(p.z());
+    const std::uint32_t source = points.source[i];
+    if (!scan.intensity.empty()) used.intensity.push_back(scan.intensity[source] * scale);
+  }
+  for (const lidar::FeatureClass c : points.classes) {
+    used.feature_class.push_back(static_cast<std::uint8_t>(c));
+  }
+  return used;
+}
+
+std::string LidarEstimator::points_are() const {
+  const double correction = sensor_.lidar->vertical_correction_deg;
+  const std::string elevation =
+      correction == 0 ? "" : fmt::format("elevation corrected by {:+g} deg, ", correction);
+  return elevation + (odometry_.deskew_note() == "on" ? "deskewed" : "not deskewed");
+}
+
+std::vector<Decision> LidarEstimator::decisions() const {
+  return {{"lidar", fmt::format("{} ({})", sensor_.label, sensor_.lidar->name)},
+          {"deskew", odometry_.deskew_note()},
+          {"points", points_are()}};
+}
+
+}  // namespace traverse::pipeline

@@ -1,0 +1,87 @@
+#include "traverse/pipeline/registry.hpp"
+
+#include <functional>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "traverse/files/input_error.hpp"
+
+#include "lidar_estimator.hpp"
+
+namespace traverse::pipeline {
+
+namespace {
+
+/// One algorithm: how its settings are read from a document, and how it is made from them.
+struct Kind {
+  std::vector<config::Setting> (*settings)(const config::Document&);
+  std::unique_ptr<Estimator> (*make)(const config::Document&, const dataset::RecordingInfo&,
+                                     int threads);
+};
+
+/// Options of the type from a preset's document, in which two keys beside them are for people.
+template <typename Options>
+Options read_options(const config::Document& document) {
+  Options options;
+  std::string estimator;
+  std::string description;
+  config::read(document, [&](config::Binder& b) {
+    b.text("estimator", estimator, "the algorithm");
+    b.text("description", description, "what the preset is");
+    bind(b, options);
+  });
+  return options;
+}
+
+template <typename Options>
+std::vector<config::Setting> settings_of(const config::Document& document) {
+  auto options = read_options<Options>(document);
+  return config::list([&](config::Binder& b) { bind(b, options); });
+}
+
+std::unique_ptr<Estimator> make_lidar_odometry(const config::Document& document,
+                                               const dataset::RecordingInfo& recording,
+                                               int threads) {
+  auto options = read_options<lidar::OdometryOptions>(document);
+  options.threads = threads;
+  return std::make_unique<LidarEstimator>(options, recording);
+}
+
+const Kind& find_kind(const Preset& preset) {
+  static const std::map<std::string, Kind, std::less<>> kKinds{
+      {"lidar_odometry", {settings_of<lidar::OdometryOptions>, make_lidar_odometry}}};
+  const std::string name = preset.resolved.scalar("estimator").value_or("");
+  const auto found = kKinds.find(name);
+  if (found != kKinds.end()) return found->second;
+  std::vector<std::string> known;
+  for (const auto& [key, kind] : kKinds) known.push_back(key);
+  throw files::InputError(preset.file, files::Place::key("estimator"),
+                          fmt::format("one of {}", fmt::join(known, ", ")), files::in_quotes(name));
+}
+
+}  // namespace
+
+std::vector<ResolvedSetting> resolve_settings(const Preset& preset) {
+  const Kind& kind = find_kind(preset);
+  const std::vector<config::Setting> shipped = kind.settings(preset.as_shipped);
+  std::vector<ResolvedSetting> resolved;
+  for (config::Setting& setting : kind.settings(preset.resolved)) {
+    config::Setting::Value in_preset = shipped.at(resolved.size()).value;
+    resolved.push_back({std::move(setting), std::move(in_preset)});
+  }
+  return resolved;
+}
+
+Pipeline make_pipeline(const Preset& preset, const dataset::RecordingInfo& recording, int threads) {
+  Pipeline pipeline;
+  pipeline.name = preset.name;
+  pipeline.description = preset.resolved.scalar("description").value_or("");
+  pipeline.settings = resolve_settings(preset);
+  pipeline.estimator = find_kind(preset).make(preset.resolved, recording, threads);
+  return pipeline;
+}
+
+}  // namespace traverse::pipeline

@@ -1,0 +1,290 @@
+#include "traverse/pipeline/run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <deque>
+#include <memory>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "traverse/dataset/point_cloud_file.hpp"
+#include "traverse/dataset/recording_slice.hpp"
+#include "traverse/dataset/trajectory_files.hpp"
+#include "traverse/evaluation/evaluate.hpp"
+#include "traverse/evaluation/json.hpp"
+#include "traverse/files/atomic_file.hpp"
+#include "traverse/files/digest.hpp"
+#include "traverse/mapping/keyframe_map.hpp"
+#include "traverse/mapping/voxel_map.hpp"
+#include "traverse/pipeline/frame_table.hpp"
+
+namespace traverse::pipeline {
+
+namespace {
+
+using ScanPtr = std::shared_ptr<const sensors::LidarScan>;
+
+/// The consistency score holds the points of the scans it is given; of a long recording it takes
+/// every so manieth scan, to stay below this many.
+constexpr std::size_t kMostScoredScans = 500;
+
+/// Thrown through the reading loop when the user stops the run.
+class Stopped : public std::exception {};
+
+std::vector<std::string> table_columns(const Estimator& estimator) {
+  std::vector<std::string> columns{"frame", "stamp_s"};
+  columns.insert(columns.end(), estimator.columns().begin(), estimator.columns().end());
+  columns.emplace_back("total_ms");
+  return columns;
+}
+
+/// Takes frames as they come and keeps what the run folder will hold.
+class Results {
+ public:
+  Results(const Estimator& estimator, const dataset::RecordingInfo& recording,
+          const RunOptions& options)
+      : estimator_(estimator),
+        first_frame_(options.first),
+        score_every_(recording.expected_scans / kMostScoredScans + 1),
+        frames_(table_columns(estimator)),
+        scorer_(estimator.points_are()),
+        map_(options.map_voxel_m, options.most_map_points),
+        keyframes_(mapping::KeyframeMapOptions{}) {}
+
+  void add(const PoseFrame& frame, const ScanPtr& scan) {
+    add_row(frame);
+    trajectory_.push_back(frame.stamp, frame.T_map_body);
+    if (scan == nullptr) return;
+    const bool sample = is_sample();
+    const UsedScan used = estimator_.used_scan(*scan, frame, sample);
+    map_.insert(used.x, used.y, used.z, used.intensity, frame.T_map_body);
+    if (keyframes_.wants(frame.T_map_body)) {
+      keyframes_.add(frame.stamp, scan->sensor, used.x, used.y, used.z, used.intensity,
+                     frame.T_map_body);
+    }
+    if ((frames_.rows().size() - 1) % score_every_ == 0) {
+      scorer_.add(used.x, used.y, used.z, frame.T_map_body);
+    }
+    if (sample) {
+      sample_ = used;
+      sample_frame_ = first_frame_ + frames_.rows().size() - 1;
+    }
+  }
+
+  const geometry::Trajectory& trajectory() const { return trajectory_; }
+  const FrameTable& frames() const { return frames_; }
+  const mapping::VoxelMap& map() const { return map_; }
+  const mapping::KeyframeMap& keyframes() const { return keyframes_; }
+  const UsedScan& sample() const { return sample_; }
+  std::size_t sample_frame() const { return sample_frame_; }
+  std::optional<evaluation::Consistency> consistency() { return scorer_.score(); }
+
+ private:
+  void add_row(const PoseFrame& frame) {
+    std::vector<double> row{static_cast<double>(first_frame_ + frames_.rows().size()),
+                            frame.stamp.seconds()};
+    row.insert(row.end(), frame.record.begin(), frame.record.end());
+    row.push_back(frame.milliseconds);
+    frames_.add_row(std::move(row));
+  }
+
+  /// The scan to show is one from the middle of the run: without knowing how long the run will be,
+  /// the latest whose number is a power of two lies in its second half.
+  bool is_sample() const {
+    const std::size_t number = frames_.rows().size() - 1;
+    return (number & (number - 1)) == 0;
+  }
+
+  const Estimator& estimator_;
+  std::size_t first_frame_;
+  std::size_t score_every_;
+  geometry::Trajectory trajectory_;
+  FrameTable frames_;
+  evaluation::ConsistencyScorer scorer_;
+  mapping::VoxelMap map_;
+  mapping::KeyframeMap keyframes_;
+  UsedScan sample_;
+  std::size_t sample_frame_ = 0;
+};
+
+/// Keeps the scans that wait for their frame: an estimator may hold the first ones back.
+class WaitingScans {
+ public:
+  void add(const sensors::Measurement& measurement) {
+    const auto* scan = std::get_if<ScanPtr>(&measurement);
+    if (scan != nullptr) scans_.push_back(*scan);
+  }
+
+  /// The scan stamped like the frame; earlier ones will not be asked for again.
+  ScanPtr take(geometry::Stamp stamp) {
+    while (!scans_.empty() && scans_.front()->stamp < stamp) scans_.pop_front();
+    if (scans_.empty() || scans_.front()->stamp != stamp) return nullptr;
+    ScanPtr scan = scans_.front();
+    scans_.pop_front();
+    return scan;
+  }
+
+ private:
+  std::deque<ScanPtr> scans_;
+};
+
+/// Reads, estimates and collects. \returns whether the user stopped it.
+bool estimate_all(dataset::Source& source, Estimator& estimator, const RunOptions& options,
+                  const RunObserver& observer, Results& results) {
+  WaitingScans waiting;
+  std::size_t done = 0;
+  const auto collect = [&](const std::vector<PoseFrame>& frames) {
+    for (const PoseFrame& frame : frames) {
+      results.add(frame, waiting.take(frame.stamp));
+      observer.frame(++done);
+    }
+  };
+  bool stopped = false;
+  try {
+    dataset::for_each_in_slice(source, {"", options.first, options.last},
+                               [&](const sensors::Measurement& measurement) {
+                                 if (observer.stop != nullptr && *observer.stop) throw Stopped();
+                                 waiting.add(measurement);
+                                 collect(estimator.process(measurement));
+                               });
+  } catch (const Stopped&) {
+    stopped = true;
+  }
+  collect(estimator.finish());
+  return stopped;
+}
+
+dataset::PointCloud to_point_cloud(const UsedScan& scan) {
+  dataset::PointCloud cloud;
+  cloud.add("x", scan.x);
+  cloud.add("y", scan.y);
+  cloud.add("z", scan.z);
+  if (!scan.intensity.empty()) cloud.add("intensity", scan.intensity);
+  if (!scan.feature_class.empty()) cloud.add("feature_class", scan.feature_class);
+  return cloud;
+}
+
+evaluation::EvaluationOptions evaluation_options(const dataset::RecordingInfo& recording) {
+  evaluation::EvaluationOptions options = evaluation::run_evaluation_options();
+  options.kitti.body_frame = recording.rig.body_frame;
+  options.kitti.T_body_camera = recording.T_body_camera;
+  return options;
+}
+
+/// Accuracy against the reference if there is one, and the sharpness of the map in any case.
+void evaluate_run(const dataset::Source& source, Results& results, const RunFolder& folder,
+                  RunRecord& record) {
+  evaluation::Evaluation evaluation = evaluation::evaluate(results.trajectory());
+  if (const auto& reference = source.reference()) {
+    try {
+      evaluation = evaluation::evaluate(results.trajectory(), reference->T_map_body,
+                                        evaluation_options(source.info()));
+    } catch (const evaluation::EvaluationError& error) {
+      record.evaluation_error = error.what();
+    }
+  }
+  evaluation.consistency = results.consistency();
+  files::write_text(folder.evaluation(), evaluation::to_json(evaluation));
+}
+
+void fill_results(const Results& results, RunRecord& record) {
+  record.frames_used = results.frames().rows().size();
+  record.sample_frame = results.sample_frame();
+  record.map_points = results.map().size();
+  record.map_voxel_m = results.map().voxel_m();
+  record.keyframes = results.keyframes().size();
+  summarise_timing(results.frames(), record);
+}
+
+void write_results(const dataset::Source& source, const Results& results, const RunFolder& folder) {
+  dataset::write_tum(folder.trajectory(), results.trajectory());
+  if (source.reference()) dataset::write_tum(folder.reference(), source.reference()->T_map_body);
+  results.frames().write_csv(folder.frames());
+  results.map().write_ply(folder.map_points());
+  results.keyframes().write(folder.simple_map());
+  if (!results.sample().x.empty()) {
+    dataset::write_ply(folder.sample_scan(), to_point_cloud(results.sample()));
+  }
+}
+
+void write_record(const RunFolder& folder, const RunRecord& record) {
+  files::write_text(folder.record(), to_json(record, build_info(), host_info()));
+}
+
+RunRecord begin_record(const dataset::Source& source, const Pipeline& pipeline,
+                       const RunOptions& options) {
+  RunRecord record;
+  record.command = options.command;
+  record.pipeline = pipeline.name;
+  record.pipeline_description = pipeline.description;
+  record.settings = pipeline.settings;
+  record.threads = options.threads;
+  record.recording = source.info();
+  record.first_frame = options.first;
+  record.points_are = pipeline.estimator->points_are();
+  record.decisions = pipeline.estimator->decisions();
+  record.started_utc = utc_now();
+  if (const auto& reference = source.reference()) {
+    record.reference_file = reference->file.string();
+    record.reference_description = reference->description;
+  }
+  return record;
+}
+
+}  // namespace
+
+RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& folder,
+              const RunOptions& options, const RunObserver& observer) {
+  const auto started = std::chrono::steady_clock::now();
+  RunRecord record = begin_record(source, pipeline, options);
+  const auto close_record = [&] {
+    record.recording = source.info();  // a rawlog's rig is known only after reading
+    record.skipped = source.skipped();
+    record.peak_memory_mb = peak_memory_mb();
+    record.wall_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    write_record(folder, record);
+  };
+  folder.prepare();
+  try {
+    Results results(*pipeline.estimator, source.info(), options);
+    const bool stopped = estimate_all(source, *pipeline.estimator, options, observer, results);
+    record.frames_read = results.frames().rows().size() + source.skipped().total();
+    if (results.frames().rows().empty()) {
+      throw std::runtime_error(source.info().path.string() +
+                               ": no frame was estimated: the recording has no usable scan in the "
+                               "range asked for");
+    }
+    observer.stage("maps and trajectory");
+    fill_results(results, record);
+    write_results(source, results, folder);
+    observer.stage("evaluation");
+    evaluate_run(source, results, folder, record);
+    if (options.hash_recording) {
+      observer.stage("digest of the recording");
+      const files::ContentId id = files::content_id(source.info().path);
+      record.recording_bytes = id.bytes;
+      record.recording_sha256 = id.sha256;
+    }
+    record.status = stopped ? RunStatus::kInterrupted : RunStatus::kOk;
+    record.reason = stopped ? "stopped by the user" : "";
+  } catch (const std::exception& error) {
+    record.status = RunStatus::kFailed;
+    record.reason = error.what();
+    try {
+      close_record();
+    } catch (const std::exception&) {
+      // The folder cannot be written either; the first error is the one to tell.
+    }
+    throw;
+  }
+  close_record();
+  return record;
+}
+
+}  // namespace traverse::pipeline

@@ -1,0 +1,20 @@
+#include "traverse/pipeline/run_folder.hpp"
+
+#include <system_error>
+
+#include "traverse/files/atomic_file.hpp"
+#include "traverse/files/input_error.hpp"
+
+namespace traverse::pipeline {
+
+void RunFolder::prepare() const {
+  files::make_writable_folder(path);
+  for (const auto& place : {record(), trajectory(), reference(), frames(), map_points(),
+                            simple_map(), sample_scan(), evaluation(), images(), report()}) {
+    std::error_code failure;
+    std::filesystem::remove_all(place, failure);
+    if (failure) throw files::OutputError(place, failure.message());
+  }
+}
+
+}  // namespace traverse::pipeline
