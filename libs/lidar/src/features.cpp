@@ -11,6 +11,18 @@ namespace {
 
 constexpr std::size_t kSuppressedNeighbours = 5;  // no two picked features closer than this
 
+/// Distance of each point to the next, metres; across the end of a line it means nothing.
+std::vector<float> steps(const ScanLines& lines) {
+  std::vector<float> step(lines.size(), 0);
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+    const float dx = lines.x[i + 1] - lines.x[i];
+    const float dy = lines.y[i + 1] - lines.y[i];
+    const float dz = lines.z[i + 1] - lines.z[i];
+    step[i] = std::sqrt(dx * dx + dy * dy + dz * dz);
+  }
+  return step;
+}
+
 /// Works on one scan at a time; the vectors below are indexed like ScanLines.
 class Picker {
  public:
@@ -18,6 +30,7 @@ class Picker {
       : lines_(lines),
         options_(options),
         curvature_(curvature(lines)),
+        step_(steps(lines)),
         blocked_(lines.size(), 0),
         beside_flat_(lines.size(), 0),
         breaks_after_(lines.size(), 0) {
@@ -56,7 +69,7 @@ class Picker {
   void block_unreliable(std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i + 1 < end; ++i) {
       const float near_range = std::min(lines_.range[i], lines_.range[i + 1]);
-      const float step = distance(i, i + 1);
+      const float step = step_[i];
       const auto reach = static_cast<float>(options_.break_m + options_.break_per_m * near_range);
       if (step <= reach) continue;
       breaks_after_[i] = 1;
@@ -70,7 +83,7 @@ class Picker {
     }
     for (std::size_t i = begin + 1; i + 1 < end; ++i) {
       const auto grazing = static_cast<float>(options_.grazing_step_per_m) * lines_.range[i];
-      if (distance(i - 1, i) > grazing && distance(i, i + 1) > grazing) blocked_[i] = 1;
+      if (step_[i - 1] > grazing && step_[i] > grazing) blocked_[i] = 1;
     }
   }
 
@@ -148,16 +161,10 @@ class Picker {
               blocked_.begin() + static_cast<std::ptrdiff_t>(end), std::uint8_t{1});
   }
 
-  float distance(std::size_t i, std::size_t j) const {
-    const float dx = lines_.x[j] - lines_.x[i];
-    const float dy = lines_.y[j] - lines_.y[i];
-    const float dz = lines_.z[j] - lines_.z[i];
-    return std::sqrt(dx * dx + dy * dy + dz * dz);
-  }
-
   const ScanLines& lines_;
   const FeatureOptions& options_;
   std::vector<float> curvature_;
+  std::vector<float> step_;
   std::vector<std::uint8_t> blocked_;       // 1: no feature: unreliable, or beside an edge
   std::vector<std::uint8_t> beside_flat_;   // 1: not another flat point, but a less flat one
   std::vector<std::uint8_t> breaks_after_;  // 1: the surface ends between this point and the next

@@ -3,9 +3,8 @@
 #include <Eigen/Core>
 
 /// The distances that lidar registration makes small, each one pure function of the point q in the
-/// map frame, with its derivative in q on request. Source: the table of line and plane residuals in
-/// docs/mathematics, sections "line" and "plane"; LOAM (2014) eqs. 2-3; F-LOAM (Wang et al., IROS
-/// 2021) eqs. 9-12.
+/// map frame, with its derivative in q on request. Source: Zhang and Singh, LOAM (RSS 2014), eqs.
+/// 2-3; Wang et al., F-LOAM (IROS 2021), eqs. 9-12.
 namespace traverse::lidar {
 
 /// A straight line in the map frame: any point of it and its direction.
