@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+#include "traverse/geometry/trajectory.hpp"
+
+/// Trajectories as text files, in the three forms that the field exchanges.
+///
+/// TUM    `t x y z qx qy qz qw`, seconds and metres, blanks between
+/// KITTI  the twelve numbers of the upper 3x4 of T_map_body, row after row; no stamps
+/// EuRoC  `t,x,y,z,qw,qx,qy,qz`, integer nanoseconds, commas between; further columns are allowed
+///
+/// '#' begins a comment line. A file that is written and read back has the same stamps to the
+/// nanosecond and the same positions to the bit, KITTI files also the same rotation. Where a
+/// quaternion stands in the file, a matrix R comes back as the rotation nearest to it:
+/// max |R' - R| <= 4e-16 + max |R R^T - I|, and one that was read from a file before comes back
+/// within 2.3e-16 (one unit in the last place of 1).
+namespace traverse::dataset {
+
+enum class TrajectoryFormat { kAuto, kTum, kKitti, kEuroc };
+
+/// The names that the command line uses.
+inline constexpr std::array<std::pair<std::string_view, TrajectoryFormat>, 4>
+    kTrajectoryFormatNames{{{"auto", TrajectoryFormat::kAuto},
+                            {"tum", TrajectoryFormat::kTum},
+                            {"kitti", TrajectoryFormat::kKitti},
+                            {"euroc", TrajectoryFormat::kEuroc}}};
+
+/// "auto", "tum", "kitti", "euroc".
+std::string_view name_of(TrajectoryFormat format);
+
+/// The format of `file`, from its first line with data: commas make it EuRoC, eight columns TUM,
+/// twelve KITTI. \throws files::InputError if it is none of these.
+TrajectoryFormat detect_trajectory_format(const std::filesystem::path& file);
+
+/// Reads T_map_body; kAuto finds out the format. Quaternions are normalised, KITTI's numbers are
+/// kept as they stand.
+/// \throws files::InputError naming the line, what was expected there and what was found: columns
+/// missing or surplus, a word that is no finite number, a quaternion of length zero, nine numbers
+/// that are no rotation (to 1e-2), a stamp before its predecessor (equal ones are allowed), no
+/// pose.
+geometry::Trajectory read_trajectory(const std::filesystem::path& file, TrajectoryFormat format);
+
+/// Write T_map_body; the file appears whole or not at all. A trajectory without poses gives a file
+/// without poses.
+/// \throws std::invalid_argument if read_trajectory() would refuse the result: no stamps where the
+/// format needs them, stamps that go back, a number that is not finite, a matrix that is no
+/// rotation; files::OutputError.
+void write_tum(const std::filesystem::path& file, const geometry::Trajectory& T_map_body);
+void write_kitti(const std::filesystem::path& file, const geometry::Trajectory& T_map_body);
+void write_euroc(const std::filesystem::path& file, const geometry::Trajectory& T_map_body);
+
+}  // namespace traverse::dataset
