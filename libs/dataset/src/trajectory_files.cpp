@@ -34,8 +34,8 @@ constexpr std::string_view kEurocHeader =
 constexpr double kRotationTolerance = 1e-2;
 
 bool is_rotation(const Eigen::Matrix3d& R) {
-  const double deviation = (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  return deviation < kRotationTolerance && R.determinant() > 0;
+  const Eigen::Array33d deviation = (R * R.transpose() - Eigen::Matrix3d::Identity()).array().abs();
+  return (deviation < kRotationTolerance).all() && R.determinant() > 0;
 }
 
 /// Through the wider type both ways, so that what a round trip changes is the rounding of the four
