@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "traverse/geometry/pose3.hpp"
+
+namespace traverse::evaluation {
+
+/// How the estimate is brought into the map frame of the reference.
+enum class AlignmentMode {
+  kNone,    ///< not at all
+  kOrigin,  ///< its first pose onto the first pose of the reference
+  kSe3,     ///< rotation and translation of least squares
+  kSim3,    ///< rotation, translation and scale of least squares
+  kScale,   ///< only the scale of kSim3, about the origin
+};
+
+/// The names that the command line and evaluation.json use.
+inline constexpr std::array<std::pair<std::string_view, AlignmentMode>, 5> kAlignmentNames{
+    {{"none", AlignmentMode::kNone},
+     {"origin", AlignmentMode::kOrigin},
+     {"se3", AlignmentMode::kSe3},
+     {"sim3", AlignmentMode::kSim3},
+     {"scale", AlignmentMode::kScale}}};
+std::string_view name_of(AlignmentMode mode);
+
+struct AlignmentOptions {
+  AlignmentMode mode = AlignmentMode::kNone;
+  /// Find the transform from so many poses at the start; from all where it is not set. It is
+  /// applied to all either way.
+  std::optional<std::size_t> first;
+};
+
+/// A pose T of the estimate becomes T_reference_estimate (R, scale * t).
+struct Alignment {
+  AlignmentMode mode = AlignmentMode::kNone;
+  geometry::Pose3 T_reference_estimate;  ///< from the map of the estimate to that of the reference
+  double scale = 1;
+  std::size_t poses_used = 0;  ///< that determined the transform: 0 for kNone, 1 for kOrigin
+
+  geometry::Pose3 operator()(const geometry::Pose3& T_estimate_body) const;
+};
+
+/// Source: Umeyama, PAMI 1991, on the positions; for kOrigin T_ref0 T_est0^-1.
+/// \throws EvaluationError if the positions do not determine the transform; std::invalid_argument
+/// if the sizes differ or are zero.
+Alignment align(std::span<const geometry::Pose3> estimate,
+                std::span<const geometry::Pose3> reference, const AlignmentOptions& options);
+
+/// `alignment` applied to each pose.
+std::vector<geometry::Pose3> aligned(std::span<const geometry::Pose3> estimate,
+                                     const Alignment& alignment);
+
+}  // namespace traverse::evaluation

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "traverse/evaluation/evaluate.hpp"
+
+namespace traverse::evaluation {
+
+/// evaluation.json: every figure with how it was made and the values behind it. Numbers are the
+/// shortest text that reads back to the same bits; what is not defined is null, never NaN.
+///
+/// {
+///   "estimate": {"name", "poses", "path_m", "first_stamp_ns", "last_stamp_ns"},
+///   "reference": the same | null,
+///   "association": null | {"by": "stamp|index", "pairs", "max_time_difference", "time_offset",
+///                          "largest_time_difference", "how",
+///                          "per_pair": {"estimate": [], "reference": [], "time_difference_s": [],
+///                                       "stamp_ns": [] | null, "distance_m": []}},
+///   "alignment": null | {"mode", "scale", "T_reference_estimate": 4x4, "poses_used", "how"},
+///   "ape": {RELATION: STATS + {"unit", "how", "per_pair": {"value": []}}},
+///   "rpe": [{"delta", "unit": "f|m|deg|rad", "all_pairs", "pairs_from", "relation", "stats":
+///   STATS,
+///            "relation_unit", "dropped_without_motion", "how",
+///            "per_pair": {"from": [], "to": [], "value": []}}],
+///   "kitti": null | {"frame", "T_body_camera": null | 4x4, "segments", "translation_percent",
+///                    "rotation_deg_per_m",
+///                    "by_length": [{"length_m", "segments", "translation_percent",
+///                                   "rotation_deg_per_m"}],
+///                    "by_speed": [{"speed_mps", ...}], "step", "frame_seconds", "how",
+///                    "per_segment": {"first": [], "last": [], "length_m": [],
+///                                    "translation_percent": [], "rotation_deg_per_m": [],
+///                                    "speed_mps": []}},
+///   "path": {"estimate_m", "reference_m", "end_error_m", "end_error_percent", "end_rotation_deg",
+///            "how"},
+///   "consistency": null | {"mme", "mpv_m", "queries", "scans", "points", "points_are", "how",
+///                          "point_to_plane": null | {"queries", "mean_m", "median_m", "p90_m"}},
+///   "undefined": [{"metric", "reason"}]
+/// }
+/// STATS: {"rmse", "mean", "median", "std", "min", "max", "sse", "count"}. Times are seconds,
+/// stamps whole nanoseconds; indices in rpe and kitti count the elements of association.per_pair.
+std::string to_json(const Evaluation& evaluation);
+
+/// Reads it back; to_json() of the result is `text` again.
+/// \throws EvaluationError naming the key that is missing or of another kind.
+Evaluation from_json(std::string_view text);
+
+}  // namespace traverse::evaluation

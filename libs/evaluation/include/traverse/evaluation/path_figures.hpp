@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "traverse/geometry/pose3.hpp"
+
+namespace traverse::evaluation {
+
+/// Lengths of the two paths and how far they end from each other when they start together.
+struct PathFigures {
+  double estimate_m = 0;   ///< path length over the matched poses
+  double reference_m = 0;  ///< the same of the reference
+  double end_error_m = 0;  ///< distance of the last poses, the first ones brought to coincide
+  std::optional<double> end_error_percent;  ///< of reference_m; nothing where that is zero
+  double end_rotation_deg = 0;              ///< angle between the last poses
+};
+
+/// Of matched poses that are not aligned. \throws std::invalid_argument if the sizes differ or are
+/// zero.
+PathFigures path_figures(std::span<const geometry::Pose3> estimate,
+                         std::span<const geometry::Pose3> reference);
+
+/// Path length from the first pose to each, metres; the first is 0.
+std::vector<double> accumulated_distances(std::span<const geometry::Pose3> poses);
+
+}  // namespace traverse::evaluation

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+
+#include "traverse/evaluation/evaluate.hpp"
+
+/// How a figure was made, in words, to stand beside it wherever it is shown.
+namespace traverse::evaluation {
+
+/// "514 pairs by stamp, at most 0.01 s apart", "154 pairs by index".
+std::string describe(const Association& association);
+/// "SE(3) alignment", "Sim(3) alignment on the first 50 poses, scale 0.980412", "no alignment".
+/// Names the poses used where they are fewer than `matches`.
+std::string describe(const Alignment& alignment, std::size_t matches);
+/// "10 frames, all pairs of the estimate".
+std::string describe(const RpeOptions& options);
+
+/// "APE translation part, SE(3) alignment, 514 pairs".
+std::string title(const Ape& ape, const Comparison& comparison);
+/// "RPE translation part, 10 frames, consecutive pairs of the estimate, SE(3) alignment, 51 pairs".
+std::string title(const Rpe& rpe, const Comparison& comparison);
+/// "KITTI drift, camera frame, no alignment, 131 segments of 100 to 800 m, one start every 10
+/// poses, 0.1 s a pose".
+std::string title(const KittiDrift& kitti);
+/// "path over 514 pairs, no alignment, end error from the first pair on in % of the reference's
+/// path".
+std::string path_title(const Comparison& comparison);
+/// "map consistency, raw points, 5 to 40 m away, one a 0.2 m voxel, 79125 queries among 3152088
+/// points of 108 scans, neighbours within 0.5 m".
+std::string title(const Consistency& score);
+
+}  // namespace traverse::evaluation

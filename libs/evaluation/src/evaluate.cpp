@@ -1,0 +1,131 @@
+#include "traverse/evaluation/evaluate.hpp"
+
+#include <fmt/format.h>
+
+#include "traverse/evaluation/titles.hpp"
+
+namespace traverse::evaluation {
+
+using geometry::Pose3;
+using geometry::Trajectory;
+
+namespace {
+
+constexpr double kFarthest_m = 1e12;  // squares and sums of positions below it stay finite
+
+void require_finite(const Trajectory& trajectory, const char* which) {
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
+    const Pose3& pose = trajectory.pose(i);
+    if (!pose.rotation.allFinite() || !(pose.translation.array().abs() < kFarthest_m).all()) {
+      throw EvaluationError(
+          fmt::format("pose {} of the {} is not finite or beyond {} m", i, which, kFarthest_m));
+    }
+  }
+}
+
+TrajectoryFacts facts_of(const Trajectory& trajectory) {
+  TrajectoryFacts facts;
+  facts.poses = trajectory.size();
+  facts.path_m = trajectory.path_length();
+  if (trajectory.is_stamped() && !trajectory.empty()) {
+    facts.first = trajectory.stamps().front();
+    facts.last = trajectory.stamps().back();
+  }
+  return facts;
+}
+
+std::vector<geometry::Stamp> matched_stamps(const Trajectory& estimate,
+                                            const Association& association) {
+  std::vector<geometry::Stamp> stamps;
+  if (association.mode == AssociationMode::kIndex) return stamps;
+  for (const Match& match : association.matches) stamps.push_back(estimate.stamp(match.estimate));
+  return stamps;
+}
+
+/// Does `compute`; where the trajectories do not define its metric, throws or takes note of why.
+template <typename Compute>
+void compute_if_defined(const EvaluationOptions& options, const std::string& metric,
+                        Comparison& comparison, Compute compute) {
+  try {
+    compute();
+  } catch (const EvaluationError& error) {
+    if (options.rpe_must_exist) throw EvaluationError(metric + ": " + error.what());
+    comparison.undefined.push_back({metric, error.what()});
+  }
+}
+
+void add_rpe(const std::vector<Pose3>& estimate, const std::vector<Pose3>& reference,
+             const EvaluationOptions& options, Comparison& comparison) {
+  for (const RpeOptions& rpe_options : options.rpe) {
+    const std::string pairs_text = describe(rpe_options);
+    std::vector<IndexPair> pairs;
+    compute_if_defined(options, "RPE, " + pairs_text, comparison,
+                       [&] { pairs = rpe_pairs(estimate, reference, rpe_options); });
+    if (pairs.empty()) continue;
+    for (const Relation relation : options.rpe_relations) {
+      const std::string metric = fmt::format("RPE {}, {}", title_of(relation), pairs_text);
+      compute_if_defined(options, metric, comparison, [&] {
+        comparison.rpe.push_back(rpe(estimate, reference, rpe_options, pairs, relation));
+      });
+    }
+  }
+}
+
+void add_kitti(const MatchedPoses& matched, const KittiDriftOptions& options,
+               Comparison& comparison) {
+  comparison.kitti = kitti_drift(matched.estimate, matched.reference, options);
+  if (comparison.kitti) return;
+  comparison.undefined.push_back(
+      {"KITTI drift", fmt::format("no stretch of the reference is longer than {} m: its path is "
+                                  "{:.4g} m long",
+                                  kKittiLengths_m.front(), comparison.path.reference_m)});
+}
+
+}  // namespace
+
+EvaluationOptions run_evaluation_options() {
+  EvaluationOptions options;
+  options.alignment.mode = AlignmentMode::kSe3;
+  options.ape_relations.clear();
+  options.rpe_relations.clear();
+  for (const auto& [name, relation] : kRelationNames) {
+    if (is_absolute(relation)) options.ape_relations.push_back(relation);
+    options.rpe_relations.push_back(relation);
+  }
+  for (const double frames : {1.0, 10.0, 50.0, 100.0}) {
+    options.rpe.push_back({{frames, DeltaUnit::kFrames}, true, PairsFrom::kEstimate});
+  }
+  options.rpe.push_back({{100, DeltaUnit::kMetres}, true, PairsFrom::kEstimate});
+  options.rpe_must_exist = false;
+  return options;
+}
+
+Evaluation evaluate(const Trajectory& estimate, const Trajectory& reference,
+                    const EvaluationOptions& options) {
+  require_finite(estimate, "estimate");
+  require_finite(reference, "reference");
+  Comparison comparison;
+  comparison.reference = facts_of(reference);
+  comparison.association = associate(estimate, reference, options.association);
+  comparison.stamps = matched_stamps(estimate, comparison.association);
+
+  const MatchedPoses matched = matched_poses(estimate, reference, comparison.association);
+  comparison.distances_m = accumulated_distances(matched.reference);
+  comparison.path = path_figures(matched.estimate, matched.reference);
+  add_kitti(matched, options.kitti, comparison);
+
+  comparison.alignment = align(matched.estimate, matched.reference, options.alignment);
+  const std::vector<Pose3> aligned_estimate = aligned(matched.estimate, comparison.alignment);
+  for (const Relation relation : options.ape_relations) {
+    comparison.ape.push_back(ape(aligned_estimate, matched.reference, relation));
+  }
+  add_rpe(aligned_estimate, matched.reference, options, comparison);
+  return {facts_of(estimate), std::move(comparison), std::nullopt};
+}
+
+Evaluation evaluate(const Trajectory& estimate) {
+  require_finite(estimate, "estimate");
+  return {facts_of(estimate), std::nullopt, std::nullopt};
+}
+
+}  // namespace traverse::evaluation

@@ -1,0 +1,42 @@
+#include "traverse/evaluation/statistics.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace traverse::evaluation {
+namespace {
+
+TEST(Statistics, OfFourValues) {
+  const Statistics s = statistics_of(std::vector<double>{4, 1, 3, 2});
+  EXPECT_EQ(s.count, 4U);
+  EXPECT_DOUBLE_EQ(s.mean, 2.5);
+  EXPECT_DOUBLE_EQ(s.median, 2.5);
+  EXPECT_DOUBLE_EQ(s.sse, 30);
+  EXPECT_DOUBLE_EQ(s.rmse, std::sqrt(7.5));
+  EXPECT_DOUBLE_EQ(s.std, std::sqrt(1.25));
+  EXPECT_EQ(s.min, 1);
+  EXPECT_EQ(s.max, 4);
+}
+
+TEST(Statistics, OfOneValue) {
+  const Statistics s = statistics_of(std::vector<double>{3});
+  EXPECT_EQ(s.median, 3);
+  EXPECT_EQ(s.std, 0);
+  EXPECT_THROW(statistics_of({}), std::invalid_argument);
+}
+
+TEST(Quantile, IsLinearBetweenNeighbours) {
+  const std::vector<double> values{5, 1, 4, 2, 3};
+  EXPECT_DOUBLE_EQ(quantile(values, 0), 1);
+  EXPECT_DOUBLE_EQ(quantile(values, 0.5), 3);
+  EXPECT_DOUBLE_EQ(quantile(values, 0.9), 4.6);
+  EXPECT_DOUBLE_EQ(quantile(values, 1), 5);
+  EXPECT_THROW(quantile(values, 1.1), std::invalid_argument);
+  EXPECT_THROW(quantile({}, 0.5), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace traverse::evaluation
