@@ -1,0 +1,249 @@
+#include "traverse/evaluation/evaluate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "traverse/dataset/trajectory_files.hpp"
+#include "traverse/evaluation/json.hpp"
+#include "traverse/evaluation/table.hpp"
+#include "traverse/files/atomic_file.hpp"
+#include "traverse/files/input_error.hpp"
+#include "traverse/files/numbers.hpp"
+#include "traverse/files/text_file.hpp"
+
+#include "commands.hpp"
+
+namespace traverse::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using dataset::TrajectoryFormat;
+using evaluation::AlignmentMode;
+using evaluation::Relation;
+
+constexpr const char* kExamples = R"(Examples:
+  traverse evaluate estimate.tum --reference reference.tum --align se3
+  traverse evaluate RUN --rpe 10f --rpe 100m --all-pairs --json evaluation.json
+  traverse evaluate 00_estimate.txt --reference 00.txt --format kitti --align sim3 --relation full
+
+ESTIMATE and REFERENCE are TUM, KITTI or EuRoC files; KITTI files go by index. The definitions are
+those of evo: translation is its trans_part, rotation its rot_part, point-distance-ratio its
+point_distance_error_ratio. Without --relation the table shows translation and angle-deg, without
+--rpe the error over one frame. KITTI drift and path figures are of the estimate as it is, not
+aligned.)";
+
+struct Arguments {
+  fs::path estimate;
+  std::optional<fs::path> reference;
+  TrajectoryFormat format = TrajectoryFormat::kAuto;
+  evaluation::EvaluationOptions options;
+  std::vector<std::string> relations;
+  std::vector<std::string> deltas;
+  bool all_pairs = false;
+  evaluation::PairsFrom pairs_from = evaluation::PairsFrom::kEstimate;
+  std::optional<fs::path> json;
+};
+
+template <typename Enum, std::size_t N>
+using Names = std::array<std::pair<std::string_view, Enum>, N>;
+
+template <typename Enum, std::size_t N>
+Enum named(const Names<Enum, N>& names, std::string_view name) {
+  return std::find_if(names.begin(), names.end(),
+                      [&](const auto& entry) { return entry.first == name; })
+      ->second;
+}
+
+template <typename Enum, std::size_t N>
+CLI::IsMember one_of(const Names<Enum, N>& names) {
+  std::vector<std::string> allowed;
+  for (const auto& entry : names) allowed.emplace_back(entry.first);
+  return CLI::IsMember(allowed);
+}
+
+/// An option that takes one of `names` and puts its meaning into `value`.
+template <typename Enum, std::size_t N>
+void add_choice(CLI::App& command, const std::string& flag, const Names<Enum, N>& names,
+                Enum& value, const std::string& meaning) {
+  command
+      .add_option_function<std::string>(
+          flag, [&](const std::string& name) { value = named(names, name); }, meaning)
+      ->check(one_of(names))
+      ->default_str(std::string(name_of(value)));
+}
+
+CLI::Validator seconds_from(double least) {
+  return {[least](const std::string& text) -> std::string {
+            const auto seconds = files::parse_double(text);
+            const bool valid = seconds && *seconds >= least && std::abs(*seconds) < 9.2e9;
+            return valid ? "" : fmt::format("'{}' is no such number of seconds", text);
+          },
+          "SECONDS"};
+}
+
+CLI::Validator count_from_one() {
+  return {[](const std::string& text) -> std::string {
+            const auto count = files::parse_integer(text);
+            return count && *count >= 1 ? "" : fmt::format("'{}' is no count from 1 on", text);
+          },
+          "N"};
+}
+
+CLI::Validator delta() {
+  return {[](const std::string& text) -> std::string {
+            if (evaluation::parse_delta(text)) return "";
+            return fmt::format(
+                "'{}' is no distance between poses such as 10f, 100m, 5deg or 0.1rad", text);
+          },
+          "DELTA"};
+}
+
+void require_sensible(const Arguments& arguments) {
+  if (!arguments.reference && !fs::is_directory(arguments.estimate)) {
+    throw CLI::ValidationError("--reference", "is needed unless ESTIMATE is a run folder");
+  }
+  const AlignmentMode mode = arguments.options.alignment.mode;
+  const bool from_positions = mode != AlignmentMode::kNone && mode != AlignmentMode::kOrigin;
+  if (arguments.options.alignment.first && !from_positions) {
+    throw CLI::ValidationError("--align-first", "needs --align se3, sim3 or scale");
+  }
+}
+
+void choose_relations(const std::vector<std::string>& names,
+                      evaluation::EvaluationOptions& options) {
+  if (names.empty()) return;
+  options.ape_relations.clear();
+  options.rpe_relations.clear();
+  for (const std::string& name : names) {
+    const Relation relation = named(evaluation::kRelationNames, name);
+    auto& chosen = options.rpe_relations;
+    if (std::find(chosen.begin(), chosen.end(), relation) != chosen.end()) continue;
+    chosen.push_back(relation);
+    if (is_absolute(relation)) options.ape_relations.push_back(relation);
+  }
+}
+
+void choose_rpe(const Arguments& arguments, evaluation::EvaluationOptions& options) {
+  options.rpe_must_exist = !arguments.deltas.empty();
+  const auto deltas = arguments.deltas.empty() ? std::vector<std::string>{"1f"} : arguments.deltas;
+  for (const std::string& text : deltas) {
+    options.rpe.push_back(
+        {*evaluation::parse_delta(text), arguments.all_pairs, arguments.pairs_from});
+  }
+}
+
+/// The drift of a run is measured in the frame that the run itself was evaluated in.
+void take_frame_of_run(const fs::path& run, evaluation::KittiDriftOptions& options) {
+  const fs::path file = run / "evaluation.json";
+  if (!fs::exists(file)) return;
+  try {
+    const auto evaluation = evaluation::from_json(files::read_text(file));
+    if (!evaluation.comparison || !evaluation.comparison->kitti) return;
+    const evaluation::KittiDrift& kitti = *evaluation.comparison->kitti;
+    options.T_body_camera = kitti.T_body_camera;
+    (kitti.T_body_camera ? options.camera_frame : options.body_frame) = kitti.frame;
+  } catch (const evaluation::EvaluationError& error) {
+    throw files::InputError(file, files::Place::whole_file(), "the evaluation of the run",
+                            error.what());
+  }
+}
+
+void evaluate(const Arguments& arguments) {
+  require_sensible(arguments);
+  evaluation::EvaluationOptions options = arguments.options;
+  choose_relations(arguments.relations, options);
+  choose_rpe(arguments, options);
+
+  fs::path estimate_file = arguments.estimate;
+  fs::path reference_file = arguments.reference.value_or(arguments.estimate / "reference.tum");
+  if (fs::is_directory(arguments.estimate)) {
+    estimate_file = arguments.estimate / "trajectory.tum";
+    take_frame_of_run(arguments.estimate, options.kitti);
+  }
+  const auto estimate = dataset::read_trajectory(estimate_file, arguments.format);
+  const auto reference = dataset::read_trajectory(reference_file, arguments.format);
+  evaluation::Evaluation evaluation = evaluation::evaluate(estimate, reference, options);
+  evaluation.estimate.name = estimate_file.string();
+  evaluation.comparison->reference.name = reference_file.string();
+
+  fmt::print("{}", to_table(evaluation));
+  if (arguments.json) files::write_text(*arguments.json, to_json(evaluation));
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& app) {
+  CLI::App& command =
+      *app.add_subcommand("evaluate", "Compare an estimated trajectory with a reference");
+  const auto arguments = std::make_shared<Arguments>();
+  evaluation::EvaluationOptions& options = arguments->options;
+
+  command
+      .add_option("ESTIMATE", arguments->estimate,
+                  "trajectory file, or a run folder with trajectory.tum")
+      ->type_name("FILE|RUN")
+      ->required();
+  command
+      .add_option("--reference", arguments->reference,
+                  "trajectory file; of a run folder its reference.tum is the default")
+      ->type_name("FILE");
+  add_choice(command, "--format", dataset::kTrajectoryFormatNames, arguments->format,
+             "of both files; auto looks at the content");
+  add_choice(command, "--align", evaluation::kAlignmentNames, options.alignment.mode,
+             "bring the estimate onto the reference: its first pose (origin), by least squares "
+             "(se3; sim3 with scale), or the scale alone");
+  command
+      .add_option("--align-first", options.alignment.first,
+                  "find the alignment from so many poses at the start, apply it to all")
+      ->check(count_from_one());
+  command
+      .add_option("--max-time-difference", options.association.max_time_difference_s,
+                  "poses further apart do not belong together")
+      ->check(seconds_from(0))
+      ->capture_default_str();
+  command
+      .add_option("--time-offset", options.association.time_offset_s,
+                  "added to the stamps of the estimate")
+      ->check(seconds_from(-9.2e9))
+      ->capture_default_str();
+  command
+      .add_option("--relation", arguments->relations,
+                  "what is measured of each error, for APE and RPE; may be repeated")
+      ->check(one_of(evaluation::kRelationNames))
+      ->allow_extra_args(false);
+  command
+      .add_option("--rpe", arguments->deltas,
+                  "relative error over so many frames, metres, degrees or radians, as 10f, 100m, "
+                  "5deg, 0.1rad; may be repeated")
+      ->check(delta())
+      ->allow_extra_args(false);
+  command.add_flag("--all-pairs", arguments->all_pairs,
+                   "RPE over all pairs that far apart, not only consecutive ones");
+  add_choice(command, "--pairs-from", evaluation::kPairsFromNames, arguments->pairs_from,
+             "whose path decides how far apart two poses are");
+  command
+      .add_option("--kitti-step", options.kitti.step,
+                  "poses from the start of one stretch of the KITTI drift to the next")
+      ->check(count_from_one())
+      ->capture_default_str();
+  command
+      .add_option("--json", arguments->json,
+                  "write every figure with the values behind it to this file")
+      ->type_name("FILE");
+  command.footer(kExamples);
+  command.callback([arguments] { evaluate(*arguments); });
+}
+
+}  // namespace traverse::app
