@@ -21,6 +21,17 @@ TEST(FitLine, FindsThePoleAndRefusesTheWall) {
   EXPECT_FALSE(fit_line(wall, NeighbourhoodOptions{}));
 }
 
+TEST(FitLine, RefusesAStripOfAWallAndAThickSet) {
+  NeighbourhoodOptions options;
+  const std::vector<Eigen::Vector3d> strip{
+      {5, 0.1, 0}, {5, -0.1, 0.3}, {5, 0.12, 0.6}, {5, -0.1, 0.9}, {5.001, 0.1, 1.2}};
+  EXPECT_FALSE(fit_line(strip, options));
+  options.line_flatness = 1e6;
+  EXPECT_TRUE(fit_line(strip, options));
+  options.line_thickness_m = 0.05;
+  EXPECT_FALSE(fit_line(strip, options));
+}
+
 TEST(FitPlane, FindsAWallAlsoThroughTheOriginOfTheMap) {
   // The form A n = -1 of published codes has no solution here.
   const std::vector<Eigen::Vector3d> wall{

@@ -15,8 +15,12 @@ struct SimulatedDrive {
   std::vector<sensors::LidarScan> scans;
   std::vector<geometry::Pose3> truth;
 
-  SimulatedDrive(const simulation::AnalyticScene& scene, int count, double speed_mps) {
-    drive.speed_mps = speed_mps;
+  SimulatedDrive(const simulation::AnalyticScene& scene, int count, double speed_mps)
+      : SimulatedDrive(scene, count, simulation::Drive{speed_mps}) {}
+
+  SimulatedDrive(const simulation::AnalyticScene& scene, int count,
+                 const simulation::Drive& vehicle)
+      : drive(vehicle) {
     scanner.azimuth_steps = 900;
     for (int i = 0; i < count; ++i) {
       const double t = 0.1 * i;

@@ -9,6 +9,8 @@ namespace traverse::lidar {
 
 namespace {
 
+constexpr double kNoise = 0.05;  // metres: below, the shape across a line is that of the noise
+
 struct PrincipalComponents {
   Eigen::Vector3d mean;
   Eigen::Vector3d eigenvalues;   // ascending, m^2
@@ -39,6 +41,8 @@ void bind(config::Binder& b, NeighbourhoodOptions& o) {
   using config::Range;
   b.number("line_ratio", o.line_ratio, Range::between(1, 1e6),
            "a line's largest eigenvalue is at least this times the second");
+  b.number("line_flatness", o.line_flatness, Range::between(1, 1e6),
+           "a line's second eigenvalue is at most this times the smallest");
   b.number("line_thickness_m", o.line_thickness_m, Range::positive(),
            "no neighbour is farther from its line");
   b.number("plane_thickness_m", o.plane_thickness_m, Range::positive(),
@@ -51,6 +55,9 @@ std::optional<Line> fit_line(std::span<const Eigen::Vector3d> points,
                              const NeighbourhoodOptions& options) {
   const PrincipalComponents pca = principal_components(points);
   if (!(pca.eigenvalues[2] > options.line_ratio * pca.eigenvalues[1])) return std::nullopt;
+  const bool strip = pca.eigenvalues[1] > options.line_flatness * pca.eigenvalues[0] &&
+                     pca.eigenvalues[1] > kNoise * kNoise;
+  if (strip) return std::nullopt;
   const Line line{pca.mean, pca.eigenvectors.col(2).normalized()};
   const bool thin = std::all_of(points.begin(), points.end(), [&](const Eigen::Vector3d& p) {
     return line_distance_residual(line, p) <= options.line_thickness_m;

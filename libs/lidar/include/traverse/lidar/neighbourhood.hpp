@@ -13,7 +13,9 @@ namespace traverse::lidar {
 /// When a handful of neighbouring map points counts as a line or a plane.
 struct NeighbourhoodOptions {
   double line_ratio = 3;           ///< line: largest eigenvalue at least this times the second
-  double line_thickness_m = 0.15;  ///< line: no neighbour farther from it than this
+  double line_flatness = 20;       ///< line: second eigenvalue at most this times the smallest, so
+                                   ///< that noisy points of one wall do not make a line in it
+  double line_thickness_m = 0.2;   ///< line: no neighbour farther from it than this
   double plane_thickness_m = 0.2;  ///< plane: no neighbour farther from it than this
   double plane_spread = 0.02;      ///< plane: second eigenvalue at least this times the largest, so
                                    ///< that points of one scan line do not make a plane
