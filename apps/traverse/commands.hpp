@@ -14,5 +14,6 @@ void add_info(CLI::App& app);
 void add_pipelines(CLI::App& app);
 void add_report(CLI::App& app);
 void add_run(CLI::App& app);
+void add_simulate(CLI::App& app);
 
 }  // namespace traverse::app

@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   traverse::app::add_report(app);
   traverse::app::add_info(app);
   traverse::app::add_convert(app);
+  traverse::app::add_simulate(app);
   traverse::app::add_pipelines(app);
   try {
     app.parse(argc, argv);
