@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include "traverse/evaluation/titles.hpp"
+
+#include "html_table.hpp"
+#include "number_text.hpp"
+#include "sections.hpp"
+
+namespace traverse::report {
+
+namespace {
+
+using evaluation::Relation;
+
+std::string relation_text(Relation relation) {
+  const std::string_view unit = evaluation::unit_of(relation);
+  return fmt::format("{}{}", evaluation::title_of(relation),
+                     unit.empty() ? "" : fmt::format(" [{}]", unit));
+}
+
+void add_statistics(std::vector<Cell>& cells, const evaluation::Statistics& s) {
+  for (const double value : {s.rmse, s.mean, s.median, s.std, s.min, s.max}) {
+    cells.emplace_back(value);
+  }
+  cells.push_back(Cell::count(s.count));
+}
+
+HtmlTable ape_table(const evaluation::Comparison& comparison) {
+  HtmlTable table({"relation", "rmse", "mean", "median", "std", "min", "max", "pairs"});
+  for (const evaluation::Ape& ape : comparison.ape) {
+    std::vector<Cell> cells{relation_text(ape.relation)};
+    add_statistics(cells, ape.statistics);
+    table.add_row(std::move(cells));
+  }
+  return table;
+}
+
+HtmlTable rpe_table(const evaluation::Comparison& comparison) {
+  HtmlTable table({"stretch", "relation", "rmse", "mean", "median", "std", "min", "max", "pairs"});
+  for (const evaluation::Rpe& rpe : comparison.rpe) {
+    std::vector<Cell> cells{evaluation::describe(rpe.options), relation_text(rpe.relation)};
+    add_statistics(cells, rpe.statistics);
+    table.add_row(std::move(cells));
+  }
+  return table;
+}
+
+HtmlTable kitti_table(const evaluation::KittiDrift& kitti) {
+  HtmlTable table({"length [m]", "translation [%]", "rotation [deg/100 m]", "segments"});
+  for (const evaluation::KittiBin& bin : kitti.by_length) {
+    table.add_row({bin.centre, bin.translation_percent, 100 * bin.rotation_deg_per_m,
+                   Cell::count(bin.segments)});
+  }
+  Cell all("all");
+  all.numeric = true;
+  table.add_row({all, kitti.translation_percent, 100 * kitti.rotation_deg_per_m,
+                 Cell::count(kitti.segments.size())},
+                true);
+  return table;
+}
+
+HtmlTable path_table(const evaluation::PathFigures& path) {
+  HtmlTable table({"figure", "value", "unit"});
+  table.add_row({"path of the estimate", path.estimate_m, "m"});
+  table.add_row({"path of the reference", path.reference_m, "m"});
+  table.add_row({"end error", path.end_error_m, "m"});
+  if (path.end_error_percent) table.add_row({"end error", *path.end_error_percent, "%"});
+  table.add_row({"end rotation", path.end_rotation_deg, "deg"});
+  return table;
+}
+
+HtmlTable consistency_table(const evaluation::Consistency& score) {
+  HtmlTable table({"figure", "value", "unit", "over"});
+  const std::string queries = count_text(score.queries) + " queries";
+  table.add_row({"mean map entropy (MME)", score.mme, "nats", queries});
+  table.add_row({"mean plane deviation (MPV)", 100 * score.mpv_m, "cm", queries});
+  if (const auto& planes = score.point_to_plane) {
+    const std::string planar = count_text(planes->queries) + " planar queries";
+    table.add_row({"distance to planes of other scans, mean", 100 * planes->mean_m, "cm", planar});
+    table.add_row({"the same, median", 100 * planes->median_m, "cm", planar});
+    table.add_row({"the same, 90 %", 100 * planes->p90_m, "cm", planar});
+  }
+  return table;
+}
+
+void add_comparison(const evaluation::Comparison& comparison, TemplateData& page) {
+  page.set("association", evaluation::describe(comparison.association));
+  page.set("alignment", evaluation::describe(comparison.alignment, comparison.stamps.size()));
+  page.set("ape_table", ape_table(comparison).data());
+  page.set("rpe_table", rpe_table(comparison).data());
+  page.set("path_table", path_table(comparison.path).data());
+  page.set("path_how", evaluation::path_title(comparison));
+  if (comparison.kitti) {
+    page.set("kitti_table", kitti_table(*comparison.kitti).data());
+    page.set("kitti_how", evaluation::title(*comparison.kitti));
+    page.set("kitti_undefined", false);
+  } else {
+    page.set("kitti_table", false);
+    page.set("kitti_undefined",
+             "Not defined: the reference is shorter than the shortest segment, 100 m.");
+  }
+  TemplateData undefined{TemplateData::type::list};
+  for (const evaluation::Undefined& item : comparison.undefined) {
+    TemplateData entry;
+    entry.set("metric", item.metric);
+    entry.set("reason", item.reason);
+    undefined.push_back(entry);
+  }
+  page.set("undefined", undefined);
+}
+
+}  // namespace
+
+void add_accuracy(const RunData& run, TemplateData& page) {
+  page.set("has_comparison", run.evaluation.comparison.has_value());
+  if (run.evaluation.comparison) add_comparison(*run.evaluation.comparison, page);
+  page.set("consistency_table", false);
+  if (const auto& score = run.evaluation.consistency) {
+    page.set("consistency_table", consistency_table(*score).data());
+    page.set("consistency_how", evaluation::title(*score));
+  }
+}
+
+}  // namespace traverse::report

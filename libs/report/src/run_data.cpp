@@ -1,0 +1,55 @@
+#include "run_data.hpp"
+
+#include "traverse/dataset/trajectory_files.hpp"
+#include "traverse/evaluation/json.hpp"
+#include "traverse/files/input_error.hpp"
+#include "traverse/files/text_file.hpp"
+#include "traverse/pipeline/run_folder.hpp"
+
+namespace traverse::report {
+
+namespace {
+
+nlohmann::json read_record(const std::filesystem::path& file) {
+  const std::string text = files::read_text(file);
+  try {
+    return nlohmann::json::parse(text);
+  } catch (const nlohmann::json::exception& error) {
+    throw files::InputError(file, files::Place::whole_file(), "JSON", error.what());
+  }
+}
+
+evaluation::Evaluation read_evaluation(const std::filesystem::path& file) {
+  const std::string text = files::read_text(file);
+  try {
+    return evaluation::from_json(text);
+  } catch (const evaluation::EvaluationError& error) {
+    throw files::InputError(file, files::Place::whole_file(), "an evaluation", error.what());
+  }
+}
+
+}  // namespace
+
+RunData read_run(const std::filesystem::path& folder) {
+  const pipeline::RunFolder files{folder};
+  RunData run;
+  run.folder = folder;
+  run.record = read_record(files.record());
+  if (run.record.value("status", "") == "failed") {
+    throw files::InputError(files.record(), files::Place::key("status"), "a run that has results",
+                            "failed: " + run.record.value("reason", ""));
+  }
+  run.frames = pipeline::FrameTable::read_csv(files.frames());
+  run.evaluation = read_evaluation(files.evaluation());
+  run.estimate = dataset::read_trajectory(files.trajectory(), dataset::TrajectoryFormat::kTum);
+  if (std::filesystem::exists(files.reference())) {
+    run.reference = dataset::read_trajectory(files.reference(), dataset::TrajectoryFormat::kTum);
+  }
+  run.map = dataset::read_point_cloud(files.map_points());
+  if (std::filesystem::exists(files.sample_scan())) {
+    run.sample_scan = dataset::read_point_cloud(files.sample_scan());
+  }
+  return run;
+}
+
+}  // namespace traverse::report

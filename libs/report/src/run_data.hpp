@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "traverse/dataset/point_cloud_file.hpp"
+#include "traverse/evaluation/evaluate.hpp"
+#include "traverse/geometry/trajectory.hpp"
+#include "traverse/pipeline/frame_table.hpp"
+
+namespace traverse::report {
+
+/// A run folder, read.
+struct RunData {
+  std::filesystem::path folder;
+  nlohmann::json record;  ///< run.json
+  pipeline::FrameTable frames;
+  evaluation::Evaluation evaluation;
+  geometry::Trajectory estimate;
+  std::optional<geometry::Trajectory> reference;
+  dataset::PointCloud map;
+  std::optional<dataset::PointCloud> sample_scan;
+
+  std::string recording_name() const { return record.at("recording").at("name"); }
+  std::string pipeline_name() const { return record.at("pipeline"); }
+  std::string date() const { return std::string(record.at("started_utc")).substr(0, 10); }
+};
+
+/// \throws files::InputError if a file is missing or is not what it should be.
+RunData read_run(const std::filesystem::path& folder);
+
+}  // namespace traverse::report

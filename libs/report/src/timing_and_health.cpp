@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "html_table.hpp"
+#include "number_text.hpp"
+#include "sections.hpp"
+
+namespace traverse::report {
+
+namespace {
+
+constexpr std::size_t kWorstFrames = 10;
+
+/// Frames in the order in which one would look at them: lost ones first, then degenerate ones, then
+/// by falling residual.
+std::vector<std::size_t> frames_by_concern(const pipeline::FrameTable& frames) {
+  const std::vector<double> registered = frames.column("registered");
+  const std::vector<double> degenerate = frames.column("degenerate_directions");
+  const std::vector<double> residual = frames.column("residual_rms_m");
+  std::vector<std::size_t> order(frames.rows().size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (residual.empty()) return {};
+  if (!order.empty()) order.erase(order.begin());  // the first frame is registered in nothing
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    if (registered[a] != registered[b]) return registered[a] < registered[b];
+    if (degenerate[a] != degenerate[b]) return degenerate[a] > degenerate[b];
+    return residual[a] > residual[b];
+  });
+  order.resize(std::min(order.size(), kWorstFrames));
+  return order;
+}
+
+HtmlTable worst_table(const pipeline::FrameTable& frames) {
+  HtmlTable table({"frame", "time [s]", "registered", "degenerate", "residual rms [m]",
+                   "inliers [%]", "line matches", "plane matches", "least eigenvalue",
+                   "time taken [ms]"});
+  const auto number = frames.column("frame");
+  const auto stamp = frames.column("stamp_s");
+  const auto registered = frames.column("registered");
+  const auto degenerate = frames.column("degenerate_directions");
+  const auto residual = frames.column("residual_rms_m");
+  const auto inliers = frames.column("inlier_share");
+  const auto lines = frames.column("line_matches");
+  const auto planes = frames.column("plane_matches");
+  const auto eigenvalue = frames.column("eigenvalue_1");
+  const auto total = frames.column("total_ms");
+  for (const std::size_t i : frames_by_concern(frames)) {
+    table.add_row({Cell::count(static_cast<std::size_t>(number[i])), stamp[i] - stamp.front(),
+                   registered[i] != 0 ? "yes" : "no",
+                   Cell::count(static_cast<std::size_t>(degenerate[i])), residual[i],
+                   100 * inliers[i], Cell::count(static_cast<std::size_t>(lines[i])),
+                   Cell::count(static_cast<std::size_t>(planes[i])), eigenvalue[i], total[i]});
+  }
+  return table;
+}
+
+}  // namespace
+
+void add_health(const RunData& run, TemplateData& page) {
+  const HtmlTable table = worst_table(run.frames);
+  page.set("worst_how",
+           "Those that could not be registered, then those with degenerate directions, then those "
+           "with the largest residuals.");
+  page.set("worst_table", table.empty() ? TemplateData(false) : table.data());
+  page.set("frame_columns", std::to_string(run.frames.columns().size()));
+}
+
+void add_timing(const RunData& run, TemplateData& page) {
+  const auto& timing = run.record.at("timing_ms");
+  HtmlTable table({"stage", "median [ms]", "mean [ms]", "95 % [ms]", "max [ms]"});
+  for (const auto& stage : timing.at("stages")) {
+    table.add_row({stage.at("name").get<std::string>(), stage.at("median").get<double>(),
+                   stage.at("mean").get<double>(), stage.at("p95").get<double>(),
+                   stage.at("max").get<double>()});
+  }
+  const auto frames = static_cast<double>(std::max<std::size_t>(1, run.frames.rows().size()));
+  table.add_row(
+      {"frame", timing.at("frame_median").get<double>(), timing.at("total").get<double>() / frames,
+       timing.at("frame_p95").get<double>(), timing.at("frame_max").get<double>()},
+      true);
+  page.set("timing_table", table.data());
+  page.set("timing_how",
+           fmt::format("Wall time of the estimator on {} thread{}; reading the recording, maps and "
+                       "evaluation are not in it. The whole run took {}, {} MB of memory at most.",
+                       run.record.at("threads").get<int>(),
+                       run.record.at("threads").get<int>() == 1 ? "" : "s",
+                       duration_text(run.record.at("wall_seconds")),
+                       short_number(run.record.at("peak_memory_mb").get<double>())));
+}
+
+}  // namespace traverse::report
