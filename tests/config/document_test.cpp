@@ -95,9 +95,8 @@ TEST(Document, ABadOverrideNamesItself) {
     read(document, binding(options));
     FAIL() << "no error";
   } catch (const InputError& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "--set threshold=x, line 1: expected a number, 0 .. 1, for 'threshold', found 'x'");
+    EXPECT_STREQ(error.what(),
+                 "--set threshold=x: expected a number, 0 .. 1, for 'threshold', found 'x'");
   }
 }
 
@@ -107,6 +106,17 @@ TEST(Document, ScalarIsAPlainValueOfTheTopLevelOnly) {
   EXPECT_FALSE(document.scalar("inner"));
   EXPECT_FALSE(document.scalar("list"));
   EXPECT_FALSE(document.scalar("gate_m"));
+}
+
+TEST(Document, KnowsWhereEachKeyWasGiven) {
+  Document document = Document::parse("count: 1\ninner:\n  gate_m: 5\nlabel: x\n", "a.yaml");
+  document.overlay(Document::parse("\nlabel: y\n", "b.yaml"));
+  document.set("inner.gate_m=7", "--option");
+  EXPECT_EQ(to_text(*document.origin("count")), "a.yaml, line 1");
+  EXPECT_EQ(to_text(*document.origin("label")), "b.yaml, line 2");
+  EXPECT_EQ(to_text(*document.origin("inner.gate_m")), "--option inner.gate_m=7");
+  EXPECT_FALSE(document.origin("inner.none"));
+  EXPECT_FALSE(document.origin("none.gate_m"));
 }
 
 TEST(Document, ChildIsTheMappingBelowAKey) {

@@ -79,6 +79,33 @@ TEST(AtomicFile, AFullDiskIsAnErrorAndLeavesNothing) {
   EXPECT_EQ(files_in(folder.path()), 0U);
 }
 
+TEST(AtomicFolder, AppearsWholeAtCommit) {
+  const TemporaryFolder folder;
+  AtomicFolder output(folder / "out/");
+  write_text(output.temporary_path() / "a.txt", "whole");
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+  output.commit();
+  EXPECT_EQ(read_text(folder / "out/a.txt"), "whole");
+  EXPECT_EQ(files_in(folder.path()), 1U);
+}
+
+TEST(AtomicFolder, WithoutCommitNothingIsLeft) {
+  const TemporaryFolder folder;
+  { write_text(AtomicFolder(folder / "out").temporary_path() / "a.txt", "half"); }
+  EXPECT_EQ(files_in(folder.path()), 0U);
+}
+
+TEST(AtomicFolder, ReplacesAnEmptyFolderButNothingElse) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "empty");
+  AtomicFolder(folder / "empty").commit();
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "empty"));
+  write_text(folder / "empty/a.txt", "");
+  EXPECT_THROW(AtomicFolder{folder / "empty"}, OutputError);
+  EXPECT_THROW(AtomicFolder{folder / "empty/a.txt"}, OutputError);
+  EXPECT_THROW(AtomicFolder{folder / "missing/out"}, OutputError);
+}
+
 TEST(MakeWritableFolder, MakesParentsAndRefusesAFileInTheWay) {
   const TemporaryFolder folder;
   make_writable_folder(folder / "a/b/c");

@@ -50,6 +50,16 @@ Entry parse_mapping(const std::string& yaml, const std::string& origin) {
   return build(node, "", origin, 1, 0);
 }
 
+Place place_of(const Entry& entry) {
+  return entry.line == 0 ? Place{} : Place::line(static_cast<std::size_t>(entry.line));
+}
+
+/// An argument of the command line has no lines.
+void forget_lines(Entry& entry) {
+  entry.line = 0;
+  for (Entry& child : entry.children) forget_lines(child);
+}
+
 void overlay_entry(Entry& base, const Entry& top) {
   if (!base.is_mapping || !top.is_mapping) {
     base = top;
@@ -77,6 +87,10 @@ Entry* Document::Tree::Entry::find(std::string_view name) {
   return const_cast<Entry*>(std::as_const(*this).find(name));
 }
 
+std::string to_text(const Origin& origin) {
+  return origin.line == 0 ? origin.source : origin.source + ", " + Place::line(origin.line).text;
+}
+
 Document::Document() : tree_(std::make_unique<Tree>()) { tree_->root.is_mapping = true; }
 Document::Document(Document&&) noexcept = default;
 Document& Document::operator=(Document&&) noexcept = default;
@@ -96,10 +110,10 @@ void Document::overlay(const Document& document) {
   overlay_entry(tree_->root, document.tree_->root);
 }
 
-void Document::set(std::string_view assignment) {
+void Document::set(std::string_view assignment, std::string_view option) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string_view::npos || equals == 0) {
-    throw InputError("--set", Place::whole_file(), "key=value", files::in_quotes(assignment));
+    throw InputError(option, Place::whole_file(), "key=value", files::in_quotes(assignment));
   }
   // "a.b=1" is the YAML "a: {b: 1}": written so, it takes the same way as a file.
   std::string yaml;
@@ -111,7 +125,9 @@ void Document::set(std::string_view assignment) {
     path.remove_prefix(dot + 1);
   }
   yaml += "{" + std::string(path) + ": " + std::string(assignment.substr(equals + 1)) + "}";
-  overlay(parse(yaml + closing, "--set " + std::string(assignment)));
+  Document argument = parse(yaml + closing, std::string(option) + " " + std::string(assignment));
+  forget_lines(argument.tree_->root);
+  overlay(argument);
 }
 
 bool Document::has(std::string_view top_level_key) const {
@@ -126,13 +142,25 @@ std::optional<std::string> Document::scalar(std::string_view top_level_key) cons
   return entry->scalar_or_sequence.Scalar();
 }
 
+std::optional<Origin> Document::origin(std::string_view path) const {
+  const Entry* entry = &tree_->root;
+  for (;;) {
+    const std::size_t dot = path.find('.');
+    entry = entry->find(path.substr(0, dot));
+    if (entry == nullptr) return std::nullopt;
+    if (dot == std::string_view::npos) break;
+    path.remove_prefix(dot + 1);
+  }
+  return Origin{entry->origin, static_cast<std::size_t>(entry->line)};
+}
+
 Document Document::child(std::string_view top_level_key) const {
   Document result;
   const Entry* entry = tree_->root.find(top_level_key);
   if (entry == nullptr) return result;
   if (!entry->is_mapping) {
-    throw InputError(entry->origin, Place::line(static_cast<std::size_t>(entry->line)),
-                     "a mapping under '" + entry->key + "'", "a single value");
+    throw InputError(entry->origin, place_of(*entry), "a mapping under '" + entry->key + "'",
+                     "a single value");
   }
   result.tree_->root = *entry;
   return result;

@@ -19,12 +19,19 @@ std::string system_reason(int error, std::string_view otherwise) {
   return error == 0 ? std::string(otherwise) : std::string(std::strerror(error));
 }
 
+std::filesystem::path temporary_beside(const std::filesystem::path& path) {
+  return path.parent_path() / fmt::format(".{}.{}.partial", path.filename().string(), ::getpid());
+}
+
+/// "out/" names the same folder as "out".
+std::filesystem::path without_trailing_slash(const std::filesystem::path& path) {
+  return path.has_filename() ? path : path.parent_path();
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(std::filesystem::path path)
-    : path_(std::move(path)),
-      temporary_(path_.parent_path() /
-                 fmt::format(".{}.{}.partial", path_.filename().string(), ::getpid())) {
+    : path_(std::move(path)), temporary_(temporary_beside(path_)) {
   errno = 0;
   stream_.open(temporary_, std::ios::binary | std::ios::trunc);
   if (!stream_) throw OutputError(path_, system_reason(errno, "the file cannot be opened"));
@@ -48,6 +55,30 @@ void AtomicFile::commit() {
   }
   std::error_code failure;
   std::filesystem::rename(temporary_, path_, failure);
+  if (failure) throw OutputError(path_, failure.message());
+  committed_ = true;
+}
+
+AtomicFolder::AtomicFolder(std::filesystem::path path)
+    : path_(without_trailing_slash(path)), temporary_(temporary_beside(path_)) {
+  std::error_code failure;
+  if (std::filesystem::exists(path_, failure) && !(std::filesystem::is_directory(path_, failure) &&
+                                                   std::filesystem::is_empty(path_, failure))) {
+    throw OutputError(path_, "it is there already");
+  }
+  std::filesystem::create_directory(temporary_, failure);
+  if (failure) throw OutputError(path_, failure.message());
+}
+
+AtomicFolder::~AtomicFolder() {
+  if (committed_) return;
+  std::error_code ignored;
+  std::filesystem::remove_all(temporary_, ignored);
+}
+
+void AtomicFolder::commit() {
+  std::error_code failure;
+  std::filesystem::rename(temporary_, path_, failure);  // also over an empty folder
   if (failure) throw OutputError(path_, failure.message());
   committed_ = true;
 }

@@ -11,6 +11,15 @@
 
 namespace traverse::config {
 
+/// Where a setting was given.
+struct Origin {
+  std::string source;    ///< the file, or the argument: "--set cell_m=0.2"
+  std::size_t line = 0;  ///< of the file, from 1; 0 for an argument
+};
+
+/// "drive/traverse.yaml, line 3" or "--set cell_m=0.2".
+std::string to_text(const Origin& origin);
+
 /// A YAML mapping with the places of its keys, and overrides on top of it (--set key=value).
 class Document {
  public:
@@ -27,13 +36,16 @@ class Document {
   /// Puts `document` over this one: its keys win, key by key through nested mappings.
   void overlay(const Document& document);
 
-  /// Overrides one key: "features.edge_threshold=0.2". The value is YAML.
+  /// Overrides one key: "features.edge_threshold=0.2". The value is YAML. `option` is the argument
+  /// of the command line that brings it, for messages.
   /// \throws files::InputError if there is no '=' or the value is not YAML.
-  void set(std::string_view assignment);
+  void set(std::string_view assignment, std::string_view option = "--set");
 
   bool has(std::string_view top_level_key) const;
   /// The plain value of `top_level_key`; nothing if there is none or it is not one value.
   std::optional<std::string> scalar(std::string_view top_level_key) const;
+  /// Where the key at `path` ("features.edge_threshold") was given; nothing if it was not.
+  std::optional<Origin> origin(std::string_view path) const;
   /// The mapping below `top_level_key`, empty if there is none. \throws files::InputError if the
   /// key holds something else.
   Document child(std::string_view top_level_key) const;

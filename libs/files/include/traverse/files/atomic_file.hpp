@@ -34,6 +34,29 @@ class AtomicFile {
   bool committed_ = false;
 };
 
+/// A folder that appears whole or not at all: filled under a temporary name beside its place and
+/// renamed by commit(). Without commit() nothing is left behind.
+class AtomicFolder {
+ public:
+  /// \throws OutputError if `path` is there already and not an empty folder, or if its parent does
+  /// not exist or does not allow it.
+  explicit AtomicFolder(std::filesystem::path path);
+  ~AtomicFolder();
+  AtomicFolder(const AtomicFolder&) = delete;
+  AtomicFolder& operator=(const AtomicFolder&) = delete;
+
+  /// Where the files go until commit().
+  const std::filesystem::path& temporary_path() const { return temporary_; }
+
+  /// \throws OutputError naming the path and the system's reason.
+  void commit();
+
+ private:
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+  bool committed_ = false;
+};
+
 /// Writes `text` as the whole of `path`, atomically. \throws OutputError
 void write_text(const std::filesystem::path& path, std::string_view text);
 
