@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "traverse/files/atomic_file.hpp"
+#include "traverse/files/binary_file.hpp"
 
 #include "temporary_folder.hpp"
 
@@ -23,6 +24,16 @@ TEST(LineReader, SkipsCommentsAndBlanksAndCountsEveryLine) {
   EXPECT_EQ(std::string(reader.error("two numbers").what()),
             (folder / "a.txt").string() + ", line 5: expected two numbers, found '3'");
   EXPECT_FALSE(reader.next());
+}
+
+TEST(ReadBytes, GivesEveryByteOrSaysWhy) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.bin", std::string("a\0\r\n\x1a", 5));
+  const std::vector<std::byte> bytes = read_bytes(folder / "a.bin");
+  ASSERT_EQ(bytes.size(), 5U);
+  EXPECT_EQ(bytes[4], std::byte{0x1a});
+  EXPECT_THROW(read_bytes(folder / "none.bin"), InputError);
+  EXPECT_THROW(read_bytes(folder.path()), InputError);
 }
 
 TEST(LineReader, SaysWhatIsWrongWithTheFile) {

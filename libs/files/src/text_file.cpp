@@ -1,27 +1,11 @@
 #include "traverse/files/text_file.hpp"
 
-#include <cerrno>
-#include <cstring>
 #include <sstream>
 #include <utility>
 
+#include "open_for_reading.hpp"
+
 namespace traverse::files {
-
-namespace {
-
-std::ifstream open_for_reading(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path)) {
-    throw InputError(path, Place::whole_file(), "a readable file", "a folder");
-  }
-  errno = 0;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) {
-    throw InputError(path, Place::whole_file(), "a readable file", std::strerror(errno));
-  }
-  return stream;
-}
-
-}  // namespace
 
 LineReader::LineReader(std::filesystem::path path)
     : path_(std::move(path)), stream_(open_for_reading(path_)) {}

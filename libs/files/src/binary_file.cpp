@@ -1,0 +1,23 @@
+#include "traverse/files/binary_file.hpp"
+
+#include "traverse/files/input_error.hpp"
+
+#include "open_for_reading.hpp"
+
+namespace traverse::files {
+
+std::vector<std::byte> read_bytes(const std::filesystem::path& path) {
+  std::ifstream stream = open_for_reading(path);
+  stream.seekg(0, std::ios::end);
+  const std::streamoff size = stream.tellg();
+  if (size < 0) throw InputError(path, Place::whole_file(), "a readable file", "a read error");
+  stream.seekg(0);
+  std::vector<std::byte> bytes(static_cast<std::size_t>(size));
+  stream.read(reinterpret_cast<char*>(bytes.data()), size);
+  if (stream.gcount() != size) {
+    throw InputError(path, Place::whole_file(), "a readable file", "a read error");
+  }
+  return bytes;
+}
+
+}  // namespace traverse::files
