@@ -1,46 +1,25 @@
 #include "traverse/files/atomic_file.hpp"
 
-#include <csignal>
 #include <iterator>
 #include <string>
-#include <sys/resource.h>
 
 #include <gtest/gtest.h>
 
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/text_file.hpp"
 
+#include "file_size_limit.hpp"
 #include "temporary_folder.hpp"
 
 namespace traverse::files {
 namespace {
 
+using testing::FileSizeLimit;
 using testing::TemporaryFolder;
 
 std::size_t files_in(const std::filesystem::path& folder) {
   return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
 }
-
-/// No file may grow beyond a size while this lives: stands for a full disk.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    rlimit limit = before_;
-    limit.rlim_cur = bytes;
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
- private:
-  rlimit before_{};
-  void (*handler_)(int);
-};
 
 TEST(AtomicFile, AppearsOnlyAtCommit) {
   const TemporaryFolder folder;

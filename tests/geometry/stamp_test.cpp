@@ -35,6 +35,9 @@ TEST(Stamp, NegativeTimesPrintAndReadBack) {
 TEST(Stamp, SecondsBetweenKeepsNanosecondsAtUnixTime) {
   const Stamp a{1317042145000000001};
   EXPECT_DOUBLE_EQ(seconds_between(a, Stamp{1317042145000000003}), 2e-9);
+  EXPECT_DOUBLE_EQ(
+      seconds_between(Stamp{-9'200'000'000'000'000'000}, Stamp{9'200'000'000'000'000'000}),
+      1.84e10);
   EXPECT_EQ(shifted(a, -0.5).nanoseconds, 1317042144500000001);
 }
 

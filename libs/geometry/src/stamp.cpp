@@ -31,7 +31,11 @@ Stamp Stamp::from_seconds(double seconds) {
 }
 
 double seconds_between(Stamp earlier, Stamp later) {
-  return static_cast<double>(later.nanoseconds - earlier.nanoseconds) * 1e-9;
+  std::int64_t nanoseconds = 0;
+  if (__builtin_sub_overflow(later.nanoseconds, earlier.nanoseconds, &nanoseconds)) {
+    return later.seconds() - earlier.seconds();  // centuries apart: damaged stamps
+  }
+  return static_cast<double>(nanoseconds) * 1e-9;
 }
 
 Stamp shifted(Stamp stamp, double seconds) {

@@ -15,7 +15,8 @@ struct GnssFix {
   std::string sensor;
   double latitude_deg = 0;
   double longitude_deg = 0;
-  double altitude_m = 0;              ///< above the ellipsoid where the receiver says so
+  /// Above the ellipsoid where the receiver says so; NaN where it gives none (NMEA RMC alone).
+  double altitude_m = 0;
   std::optional<double> heading_deg;  ///< clockwise from true north, only when valid
   /// Position covariance in east, north, up [m^2], where the recording has one.
   std::optional<Eigen::Matrix3d> covariance_enu;
