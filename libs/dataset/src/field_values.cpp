@@ -14,14 +14,14 @@ namespace traverse::dataset {
 
 namespace {
 
-template <typename Number>
-Number load(const std::byte* from, bool swap_bytes) {
-  std::array<std::byte, sizeof(Number)> bytes;
-  std::memcpy(bytes.data(), from, sizeof(Number));
-  if (swap_bytes) std::reverse(bytes.begin(), bytes.end());
-  Number value;
-  std::memcpy(&value, bytes.data(), sizeof(Number));
-  return value;
+template <typename Number, bool swap_bytes>
+void decode_all(std::vector<Number>& values, const std::byte* first, std::size_t stride) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    std::array<std::byte, sizeof(Number)> bytes;
+    std::memcpy(bytes.data(), first + i * stride, sizeof(Number));
+    if constexpr (swap_bytes) std::reverse(bytes.begin(), bytes.end());
+    std::memcpy(&values[i], bytes.data(), sizeof(Number));
+  }
 }
 
 template <std::size_t... Index>
@@ -69,8 +69,10 @@ void decode(FieldValues& values, const std::byte* first, std::size_t stride, boo
   std::visit(
       [&](auto& held) {
         using Number = typename std::decay_t<decltype(held)>::value_type;
-        for (std::size_t i = 0; i < held.size(); ++i) {
-          held[i] = load<Number>(first + i * stride, swap_bytes);
+        if (swap_bytes) {
+          decode_all<Number, true>(held, first, stride);
+        } else {
+          decode_all<Number, false>(held, first, stride);
         }
       },
       values);

@@ -164,6 +164,7 @@ PointCloud read_points(FileCursor& file, const PlyElement& vertex, PlyFormat for
   }
 
   std::vector<FieldValues> values;
+  values.reserve(vertex.properties.size());
   for (const PlyProperty& property : vertex.properties) {
     values.push_back(make_values(property.type, vertex.count));
   }

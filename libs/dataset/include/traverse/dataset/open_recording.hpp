@@ -12,12 +12,29 @@
 namespace traverse::dataset {
 
 /// What the user says about a recording beyond what stands beside it.
+///
+/// A recording states facts about itself in traverse.yaml beside its data (X.traverse.yaml beside
+/// X.rawlog). Keys, each optional:
+///
+///     name: Drive 1                 for titles
+///     motion_compensated: false     true: the points of a scan already lie where they would at
+///                                   its stamp
+///     sensor: hdl64e_kitti          a profile in SHARE/sensors, or a file relative to this one
+///     lidar: {rings: 64}            any key of a profile, stronger than the profile
+///     reference:
+///       file: poses_velo.txt        relative to the recording's folder
+///       format: kitti               auto | tum | kitti | euroc
+///       frame: lidar                body | lidar | camera
+///     calibration: calib.txt        in KITTI's form: Tr, or Tr_velo_to_cam with R0_rect
+///     body_frame: lidar             what reports call the body
+///     period_s: 0.1                 for folders without stamps
+///     first_stamp: 1317042145.964   for folders without stamps, seconds
 struct OpenOptions {
   /// Statements in the form of traverse.yaml, stronger than the file: from a YAML file and from
   /// --recording key=value on the command line.
   std::optional<std::filesystem::path> statements_file;
   std::vector<std::string> statements;  ///< "motion_compensated=true", "lidar.sweep_s=0.1"
-  /// Folder with sensors/*.yaml, where a profile named in traverse.yaml is looked up.
+  /// SHARE: the folder with sensors/*.yaml.
   std::filesystem::path share_folder;
 };
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "traverse/geometry/pose3.hpp"
 #include "traverse/geometry/trajectory.hpp"
 #include "traverse/sensors/measurement.hpp"
 #include "traverse/sensors/rig.hpp"
@@ -44,7 +45,10 @@ struct RecordingInfo {
   std::filesystem::path path;
   std::string format;  ///< "KITTI odometry", "KITTI raw", "point-cloud folder", "MRPT rawlog"
   std::string name;    ///< short, for titles: "2011_09_26_drive_0001"
+  /// A rawlog names its sensors as it goes: those that appear late join while it is read.
   sensors::Rig rig;
+  /// Camera 0 (rectified), in which the KITTI metric is computed; nothing if it is not known.
+  std::optional<geometry::Pose3> T_body_camera;
   /// The points of each scan already lie where they would at the scan's stamp: no deskew.
   bool motion_compensated = false;
   std::vector<Fact> facts;
@@ -81,6 +85,10 @@ class Source {
 
   /// The reference trajectory, if the recording has one.
   virtual const std::optional<Reference>& reference() const = 0;
+
+  /// How much of the recording next() has been through, 0 to 1, for a progress bar; nothing if
+  /// that is not known.
+  virtual std::optional<double> share_read() const { return std::nullopt; }
 };
 
 }  // namespace traverse::dataset

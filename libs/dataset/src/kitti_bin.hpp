@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+
+#include "traverse/sensors/lidar_scan.hpp"
+
+namespace traverse::dataset {
+
+/// Reads a KITTI .bin file: float32 little-endian x, y, z, intensity of one point after the other.
+/// Stamp and sensor are left to the caller.
+/// \throws files::InputError if it cannot be read or does not hold whole points.
+sensors::LidarScan read_kitti_bin(const std::filesystem::path& file);
+
+/// Writes such a file, atomically; intensity 0 where the scan has none. \throws files::OutputError
+void write_kitti_bin(const std::filesystem::path& file, const sensors::LidarScan& scan);
+
+}  // namespace traverse::dataset

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "traverse/dataset/point_cloud_file.hpp"
+#include "traverse/dataset/source.hpp"
+#include "traverse/geometry/stamp.hpp"
+
+namespace traverse::dataset {
+
+/// What the values of a point's time field count from.
+enum class TimeZero {
+  kScanStamp,   ///< relative times
+  kEpoch,       ///< absolute, on the clock of the scans' stamps
+  kFirstPoint,  ///< absolute, on another clock: the first point of a scan is at its stamp
+};
+
+/// How the times of points are to be read, the same for all scans of a recording.
+struct PointTimeConvention {
+  std::string field;
+  double unit_s = 1;  ///< seconds that a stored 1 stands for
+  TimeZero zero = TimeZero::kScanStamp;
+};
+
+/// Decides from the magnitude of the values in one scan, best the last: there absolute times are
+/// largest. Whole numbers are nanoseconds. Other numbers are seconds unless the scan would then
+/// last more than 2 s; then micro- or nanoseconds. Values within 2 s of zero are relative, larger
+/// ones absolute. Nothing if there is no time field or it cannot be understood; says in `facts`
+/// what was decided.
+std::optional<PointTimeConvention> find_point_time(const PointCloud& cloud, geometry::Stamp stamp,
+                                                   std::vector<Fact>& facts);
+
+/// Seconds after `stamp` of each point. \throws files::InputError if the field is missing.
+std::vector<float> point_times(const PointCloud& cloud, const PointTimeConvention& convention,
+                               geometry::Stamp stamp, const std::filesystem::path& file);
+
+}  // namespace traverse::dataset
