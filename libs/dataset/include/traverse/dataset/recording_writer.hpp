@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "traverse/dataset/source.hpp"
+
+namespace traverse::dataset {
+
+/// Writes a recording, one measurement at a time. Nothing is at its place before commit().
+class RecordingWriter {
+ public:
+  virtual ~RecordingWriter() = default;
+
+  /// \throws files::OutputError if a byte is not taken.
+  virtual void add(const sensors::Measurement& measurement) = 0;
+
+  /// Writes what remains and puts everything in its place. \throws files::OutputError
+  virtual void commit() = 0;
+
+  /// Measurements that the format has no place for, by what they are: "IMU samples".
+  const std::map<std::string, std::size_t>& left_out() const { return left_out_; }
+
+ protected:
+  std::map<std::string, std::size_t> left_out_;
+};
+
+struct RawlogOptions {
+  int gzip_level = 1;  ///< 0 (plain) to 9
+};
+
+/// Writes `file` as a rawlog of observations that MRPT's own tools open, with the facts in
+/// X.traverse.yaml and the reference in X.reference.tum beside it.
+///
+/// A lidar scan becomes a CObservationVelodyneScan with only its point cloud filled: rings and
+/// times, found as the profile says, go to laser_id and timestamp (ticks of 100 ns), intensity is
+/// scaled to 0 .. 255. The profile that is written says that they are in the data. GNSS headings
+/// and covariances have no place in MRPT 2.5.
+///
+/// `info` must outlive the writer: the rig of a rawlog that is being read may grow.
+std::unique_ptr<RecordingWriter> write_rawlog(const std::filesystem::path& file,
+                                              const RecordingInfo& info,
+                                              const std::optional<Reference>& reference,
+                                              const RawlogOptions& options);
+
+enum class ScanFolderFormat { kPcd, kPly, kKitti };
+
+/// Writes the scans of one lidar as `folder`: scans named by their number, times.txt,
+/// traverse.yaml, reference.tum and calib.txt where they are known. The body is then the lidar.
+/// PCD and PLY files hold rings and times, found as the profile says; KITTI's do not.
+/// \throws std::invalid_argument if `info` has no lidar with that label.
+std::unique_ptr<RecordingWriter> write_scan_folder(const std::filesystem::path& folder,
+                                                   const RecordingInfo& info,
+                                                   const std::optional<Reference>& reference,
+                                                   const std::string& lidar,
+                                                   ScanFolderFormat format);
+
+}  // namespace traverse::dataset

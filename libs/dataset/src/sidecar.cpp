@@ -1,0 +1,64 @@
+#include "sidecar.hpp"
+
+#include <utility>
+
+#include "traverse/config/binder.hpp"
+#include "traverse/config/settings.hpp"
+#include "traverse/dataset/trajectory_files.hpp"
+#include "traverse/files/atomic_file.hpp"
+#include "traverse/files/numbers.hpp"
+
+namespace traverse::dataset {
+
+namespace {
+
+void write_calibration(const std::filesystem::path& file, const geometry::Pose3& T_camera_lidar) {
+  std::string line = "Tr:";
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      line += " " + files::to_text(T_camera_lidar.rotation(row, column));
+    }
+    line += " " + files::to_text(T_camera_lidar.translation(row));
+  }
+  files::write_text(file, line + "\n");
+}
+
+}  // namespace
+
+void write_sidecar(const Sidecar& sidecar, const SidecarFiles& files) {
+  Sidecar values = sidecar;  // a Binder binds variables, also to list them
+  std::string reference_file = files.reference.filename().string();
+  std::string reference_format = "tum";
+  std::string reference_frame = "body";
+  std::string calibration = files.calibration.filename().string();
+  const std::string yaml = config::to_yaml(
+      [&](config::Binder& b) {
+        b.text("name", values.name, "");
+        b.flag("motion_compensated", values.motion_compensated, "");
+        b.text("body_frame", values.body_frame, "");
+        if (values.reference) {
+          b.group("reference", "", [&](config::Binder& reference) {
+            reference.text("file", reference_file, "");
+            reference.text("format", reference_format, "");
+            reference.text("frame", reference_frame, "");
+          });
+        }
+        if (values.T_camera_lidar) b.text("calibration", calibration, "");
+        if (values.profile) {
+          b.group("lidar", "", [&](config::Binder& lidar) { bind(lidar, *values.profile); });
+        }
+      },
+      false);
+  if (sidecar.reference) write_tum(files.reference, *sidecar.reference);
+  if (sidecar.T_camera_lidar) write_calibration(files.calibration, *sidecar.T_camera_lidar);
+  files::write_text(files.statements, "# Written by traverse convert.\n" + yaml);
+}
+
+sensors::LidarProfile stored_in_data(sensors::LidarProfile profile, bool has_rings,
+                                     bool has_times) {
+  if (has_rings) profile.ring_source = sensors::RingSource::kData;
+  if (has_times) profile.time_source = sensors::TimeSource::kData;
+  return profile;
+}
+
+}  // namespace traverse::dataset

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "traverse/dataset/source.hpp"
+#include "traverse/sensors/lidar_profile.hpp"
+
+namespace traverse::dataset {
+
+/// What is written beside a converted recording, so that opening it again tells the same.
+struct Sidecar {
+  std::string name;
+  bool motion_compensated = false;
+  std::string body_frame;
+  std::optional<sensors::LidarProfile> profile;   ///< of the data as they are in the copy
+  std::optional<geometry::Trajectory> reference;  ///< T_map_body of the copy's body
+  std::optional<geometry::Pose3> T_camera_lidar;
+};
+
+/// The names of the files, all in one folder.
+struct SidecarFiles {
+  std::filesystem::path statements;
+  std::filesystem::path reference;
+  std::filesystem::path calibration;
+};
+
+/// Writes the statements, and the other two where there is something to write.
+/// \throws files::OutputError
+void write_sidecar(const Sidecar& sidecar, const SidecarFiles& files);
+
+/// The profile of the copy of a recording that stores rings and times with the points.
+sensors::LidarProfile stored_in_data(sensors::LidarProfile profile, bool has_rings, bool has_times);
+
+}  // namespace traverse::dataset
