@@ -23,4 +23,9 @@ inline std::filesystem::path kitti_drive(const std::string& name) {
          name;
 }
 
+/// Why a test on a drive is skipped.
+inline constexpr const char* kNoDrives =
+    "the KITTI drives are not there: scripts/test unpacks them from the folder that "
+    "TRAVERSE_TEST_DATA names";
+
 }  // namespace traverse::testing

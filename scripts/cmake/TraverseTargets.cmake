@@ -59,6 +59,8 @@ function(traverse_test name)
   endif()
   add_executable(${name}_test ${ARG_SOURCES})
   target_include_directories(${name}_test PRIVATE ${CMAKE_SOURCE_DIR}/tests)
+  target_compile_definitions(${name}_test PRIVATE
+    TRAVERSE_SOURCE_DIR="${CMAKE_SOURCE_DIR}" TRAVERSE_SHARE_DIR="${CMAKE_SOURCE_DIR}/share")
   target_link_libraries(${name}_test
     PRIVATE ${ARG_USES} GTest::gmock GTest::gtest_main traverse_build_flags)
   gtest_discover_tests(${name}_test

@@ -307,8 +307,8 @@ TEST(OpenRecording, ATrailingSlashNamesTheSameFolder) {
 
 TEST(RealKittiDrive, OpensWithTheStatementsThatComeWithTheProgram) {
   const TemporaryFolder folder;
-  if (!unpack_real_drive("2011_09_26_drive_0001", 2, folder.path())) {
-    GTEST_SKIP() << "the KITTI drives are not there (set TRAVERSE_TEST_DATA)";
+  if (!copy_real_drive("2011_09_26_drive_0001", 2, folder.path())) {
+    GTEST_SKIP() << testing::kNoDrives;
   }
   OpenOptions options = options_with();
   options.statements_file = fs::path(TRAVERSE_SHARE_DIR) / "recordings/kitti_raw_drive.yaml";

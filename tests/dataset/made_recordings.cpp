@@ -1,4 +1,5 @@
 #include "dataset/made_recordings.hpp"
+#include "test_data.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -117,31 +118,16 @@ std::string opening_error(const fs::path& path, std::vector<std::string> stateme
   return "no error";
 }
 
-bool unpack_real_drive(const std::string& name, std::size_t scans, const fs::path& folder) {
-  // The packed drives come with a program that unpacks all of one; its decode() does for some.
-  constexpr const char* kProgram = R"(
-import os, runpy, shutil, sys
-tool, name, count, folder = sys.argv[1], sys.argv[2], int(sys.argv[3]), sys.argv[4]
-packed = os.path.join(os.path.dirname(tool), 'kitti_packed', name)
-decode = runpy.run_path(tool)['decode']
-os.makedirs(os.path.join(folder, 'velodyne'))
-for file in sorted(os.listdir(packed)):
-    if not file.endswith('.xz'):
-        shutil.copy(os.path.join(packed, file), os.path.join(folder, file))
-    elif int(file[:-3]) < count:
-        with open(os.path.join(folder, 'velodyne', file[:-3] + '.bin'), 'wb') as points:
-            points.write(decode(open(os.path.join(packed, file), 'rb').read()))
-)";
-  const char* stated = std::getenv("TRAVERSE_TEST_DATA");
-  const fs::path data = stated != nullptr ? fs::path(stated) : fs::path(TRAVERSE_DEFAULT_TEST_DATA);
-  const fs::path tool = data / "unpack-kitti";
-  if (!fs::exists(tool)) return false;
-  fs::create_directories(folder);
-  files::write_text(folder / "unpack.py", kProgram);
-  const std::string command =
-      fmt::format("python3 '{}' '{}' '{}' {} '{}'", (folder / "unpack.py").string(), tool.string(),
-                  name, scans, folder.string());
-  if (std::system(command.c_str()) != 0) throw std::runtime_error("cannot unpack " + name);
+bool copy_real_drive(const std::string& name, std::size_t scans, const fs::path& folder) {
+  const fs::path drive = kitti_drive(name);
+  if (!fs::is_directory(drive)) return false;
+  fs::create_directories(folder / "velodyne");
+  for (const auto& entry : fs::directory_iterator(drive)) {
+    if (entry.is_regular_file()) fs::copy_file(entry, folder / entry.path().filename());
+  }
+  for (std::size_t i = 0; i < scans; ++i) {
+    fs::copy_file(drive / bin_name(i), folder / bin_name(i));
+  }
   return true;
 }
 

@@ -55,10 +55,9 @@ std::vector<std::string> skipped_in(const Source& source);
 std::string opening_error(const std::filesystem::path& path,
                           std::vector<std::string> statements = {});
 
-/// Unpacks the first scans of a real KITTI drive into `folder`, in the odometry layout, with the
-/// drive's times, calibration and poses; false if the data are not there (see
-/// TRAVERSE_TEST_DATA).
-bool unpack_real_drive(const std::string& name, std::size_t scans,
-                       const std::filesystem::path& folder);
+/// Copies the first scans of a real KITTI drive (test_data.hpp) into `folder`, with its times,
+/// calibration and poses; false if the drive is not there.
+bool copy_real_drive(const std::string& name, std::size_t scans,
+                     const std::filesystem::path& folder);
 
 }  // namespace traverse::testing

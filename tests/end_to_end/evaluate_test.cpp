@@ -9,7 +9,7 @@
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/text_file.hpp"
 
-#include "end_to_end/run_program.hpp"
+#include "end_to_end/program.hpp"
 #include "evaluation/golden_trajectories.hpp"
 #include "temporary_folder.hpp"
 
@@ -17,8 +17,8 @@ namespace traverse {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::Outcome;
-using testing::run_traverse;
+using testing::ProgramResult;
+using testing::run_program;
 using testing::TemporaryFolder;
 using Json = nlohmann::json;
 
@@ -35,8 +35,8 @@ class EvaluateCommand : public ::testing::Test {
     return "evaluate " + file("trajectory.tum") + " --reference " + file("reference.tum");
   }
   Json json_of(const std::string& arguments) const {
-    const Outcome outcome = run_traverse(arguments + " --json " + file("out.json"));
-    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    const ProgramResult outcome = run_program(arguments + " --json " + file("out.json"));
+    EXPECT_EQ(outcome.status, 0) << outcome.everything();
     return Json::parse(files::read_text(folder_ / "out.json"));
   }
 
@@ -46,7 +46,7 @@ class EvaluateCommand : public ::testing::Test {
 TEST_F(EvaluateCommand, GivesTheKnownFiguresAsTableAndJson) {
   const std::string arguments =
       both_files() + " --align se3 --rpe 10f --rpe 20m --all-pairs --relation translation";
-  EXPECT_THAT(run_traverse(arguments).output, HasSubstr("APE, SE(3) alignment"));
+  EXPECT_THAT(run_program(arguments).everything(), HasSubstr("APE, SE(3) alignment"));
   const Json json = json_of(arguments);
   EXPECT_EQ(json.at("association").at("pairs"), 514);
   EXPECT_NEAR(json.at("ape").at("translation").at("rmse"), 2.008707081862, 1e-9);
@@ -106,16 +106,16 @@ TEST_F(EvaluateCommand, WrongUsageIsStatusTwo) {
         both_files() + " --align se3 --align-first -1", both_files() + " --max-time-difference -1",
         both_files() + " --time-offset nan", both_files() + " --relation speed",
         both_files() + " --kitti-step 0", both_files() + " --unknown"}) {
-    EXPECT_EQ(run_traverse(arguments).status, 2) << arguments;
+    EXPECT_EQ(run_program(arguments).status, 2) << arguments;
   }
-  EXPECT_EQ(run_traverse("evaluate --help").status, 0);
+  EXPECT_EQ(run_program("evaluate --help").status, 0);
 }
 
 TEST_F(EvaluateCommand, WhatCannotBeEvaluatedIsStatusOneAndWritesNothing) {
   const auto expect_failure = [&](const std::string& arguments, const std::string& message) {
-    const Outcome outcome = run_traverse(arguments + " --json " + file("out.json"));
+    const ProgramResult outcome = run_program(arguments + " --json " + file("out.json"));
     EXPECT_EQ(outcome.status, 1) << arguments;
-    EXPECT_THAT(outcome.output, HasSubstr(message));
+    EXPECT_THAT(outcome.everything(), HasSubstr(message));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out.json"));
   };
   expect_failure(both_files() + " --time-offset 1e6", "no pose of the estimate is within 0.01 s");
@@ -124,9 +124,9 @@ TEST_F(EvaluateCommand, WhatCannotBeEvaluatedIsStatusOneAndWritesNothing) {
   expect_failure("evaluate " + file("none") + " --reference " + file("reference.tum"), "none");
   std::filesystem::remove(folder_ / "reference.tum");
   expect_failure("evaluate " + folder_.path().string(), "reference.tum: expected a readable file");
-  EXPECT_THAT(run_traverse("evaluate " + file("trajectory.tum") + " --reference " +
+  EXPECT_THAT(run_program("evaluate " + file("trajectory.tum") + " --reference " +
                            file("trajectory.tum") + " --json " + file("no/such/folder"))
-                  .output,
+                  .everything(),
               HasSubstr("cannot be written"));
 }
 

@@ -1,0 +1,55 @@
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "traverse/files/atomic_file.hpp"
+
+#include "commands.hpp"
+#include "recording_options.hpp"
+#include "recording_progress.hpp"
+#include "recording_report.hpp"
+
+namespace traverse::app {
+
+namespace {
+
+struct InfoOptions {
+  RecordingOptions recording;
+  std::string json;  ///< path; empty if not given
+};
+
+constexpr const char* kExamples = R"(Examples:
+  traverse info 2011_09_26_drive_0001_sync
+  traverse info drive.rawlog --json drive.json
+  traverse info scans --recording sensor=hdl64e_kitti --recording period_s=0.1)";
+
+void run_info(const InfoOptions& options) {
+  const auto source = options.recording.open();
+  RecordingProgress progress("reading", *source);
+  const dataset::RecordingSurvey survey =
+      dataset::survey(*source, [&](const auto& measurement) { progress.update(measurement); });
+  progress.finish();
+  if (!options.json.empty()) {
+    files::write_text(options.json, recording_json(*source, survey));
+  }
+  fmt::print("{}", recording_text(*source, survey));
+}
+
+}  // namespace
+
+void add_info(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "info",
+      "Reads a recording and says what is in it, what is wrong with it, and what is "
+      "taken for true about it");
+  auto options = std::make_shared<InfoOptions>();
+  add_recording_options(*command, options->recording);
+  command->add_option("--json", options->json, "write all of it to this file too")
+      ->option_text("FILE");
+  command->footer(kExamples);
+  command->callback([options] { run_info(*options); });
+}
+
+}  // namespace traverse::app
