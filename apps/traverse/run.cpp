@@ -11,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "traverse/config/settings.hpp"
 #include "traverse/report/run_report.hpp"
 
 #include "command_line.hpp"
@@ -68,8 +69,8 @@ std::size_t expected_frames(const dataset::Source& source, const pipeline::RunOp
 
 void run_recording(RunArguments& arguments, const std::vector<std::string>& command) {
   if (!arguments.reference.empty()) {
-    const auto absolute = std::filesystem::absolute(arguments.reference);
-    arguments.recording.statements.push_back("reference.file=" + absolute.string());
+    const std::string file = std::filesystem::absolute(arguments.reference).string();
+    arguments.recording.statements.push_back("reference.file=" + config::to_text(file));
   }
   if (!arguments.reference_frame.empty()) {
     arguments.recording.statements.push_back("reference.frame=" + arguments.reference_frame);

@@ -30,9 +30,12 @@ void print_accuracy(const evaluation::Comparison& comparison) {
     print_line("accuracy", fmt::format("APE {:.3f} m rmse over {} poses", ape.statistics.rmse,
                                        ape.statistics.count));
   }
-  print_line("", fmt::format("end error {:.2f} % of {:.1f} m, {:.2f} deg",
-                             comparison.path.end_error_percent, comparison.path.reference_m,
-                             comparison.path.end_rotation_deg));
+  const evaluation::PathFigures& path = comparison.path;
+  print_line(
+      "",
+      fmt::format("end error {:.3f} m{} of {:.1f} m, {:.2f} deg", path.end_error_m,
+                  path.end_error_percent ? fmt::format(", {:.2f} %", *path.end_error_percent) : "",
+                  path.reference_m, path.end_rotation_deg));
   if (comparison.kitti) {
     print_line(
         "", fmt::format("KITTI drift {:.2f} %, {:.4f} deg/m over {} segments ({} frame)",
@@ -51,8 +54,9 @@ void print_run_summary(const pipeline::RunRecord& record, const pipeline::RunFol
   print_line("frames", frames_text(record));
   if (evaluation.comparison) print_accuracy(*evaluation.comparison);
   if (evaluation.consistency) {
-    print_line("map", fmt::format("MME {:.3f}, {} points used {}", evaluation.consistency->mme,
-                                  record.map_points, record.points_are));
+    print_line("map",
+               fmt::format("entropy (MME) {:.3f}, {} points ({})", evaluation.consistency->mme,
+                           record.map_points, record.points_are));
   }
   print_line("time", fmt::format("{:.1f} ms a frame (median), {:.1f} ms at 95 %, {} thread{}",
                                  record.frame_median_ms, record.frame_p95_ms, record.threads,

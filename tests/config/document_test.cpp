@@ -48,7 +48,7 @@ TEST(Document, NamesFileLineKeyAndFindingOfAWrongValue) {
   EXPECT_EQ(message_of("deskew: 1"),
             "x.yaml, line 1: expected true or false for 'deskew', found '1'");
   EXPECT_EQ(message_of("count: 1.5"),
-            "x.yaml, line 1: expected a whole number, 0 .. 2.14748e+09, for 'count', found '1.5'");
+            "x.yaml, line 1: expected a whole number, 0 or more, for 'count', found '1.5'");
   EXPECT_EQ(message_of("threshold: nan"),
             "x.yaml, line 1: expected a number, 0 .. 1, for 'threshold', found 'nan'");
   EXPECT_EQ(message_of("angles: [1, x]"),
@@ -101,7 +101,8 @@ TEST(Document, ABadOverrideNamesItself) {
 }
 
 TEST(Document, ScalarIsAPlainValueOfTheTopLevelOnly) {
-  const Document document = Document::parse("label: x y\ninner: {gate_m: 5}\nlist: [1]\n", "x.yaml");
+  const Document document =
+      Document::parse("label: x y\ninner: {gate_m: 5}\nlist: [1]\n", "x.yaml");
   EXPECT_EQ(document.scalar("label"), "x y");
   EXPECT_FALSE(document.scalar("inner"));
   EXPECT_FALSE(document.scalar("list"));

@@ -10,6 +10,7 @@
 #include "dataset/made_recordings.hpp"
 #include "geometry/random_motion.hpp"
 #include "temporary_folder.hpp"
+#include "test_data.hpp"
 
 namespace traverse::dataset {
 namespace {

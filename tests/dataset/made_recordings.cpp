@@ -1,5 +1,4 @@
 #include "dataset/made_recordings.hpp"
-#include "test_data.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -10,6 +9,8 @@
 
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
+
+#include "test_data.hpp"
 
 namespace traverse::testing {
 

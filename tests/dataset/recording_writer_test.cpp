@@ -19,6 +19,7 @@
 #include "file_size_limit.hpp"
 #include "geometry/random_motion.hpp"
 #include "temporary_folder.hpp"
+#include "test_data.hpp"
 
 namespace traverse::dataset {
 namespace {

@@ -125,7 +125,7 @@ TEST_F(EvaluateCommand, WhatCannotBeEvaluatedIsStatusOneAndWritesNothing) {
   std::filesystem::remove(folder_ / "reference.tum");
   expect_failure("evaluate " + folder_.path().string(), "reference.tum: expected a readable file");
   EXPECT_THAT(run_program("evaluate " + file("trajectory.tum") + " --reference " +
-                           file("trajectory.tum") + " --json " + file("no/such/folder"))
+                          file("trajectory.tum") + " --json " + file("no/such/folder"))
                   .everything(),
               HasSubstr("cannot be written"));
 }

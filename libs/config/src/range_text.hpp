@@ -12,7 +12,8 @@ namespace traverse::config {
 
 /// "0 .. 1", "above 0", "0 or more", or nothing for any number.
 inline std::string range_text(Range range) {
-  const bool no_most = std::isinf(range.most);
+  // A whole number without a bound of its own ends where an int does, which says nothing to people.
+  const bool no_most = range.most >= double{std::numeric_limits<int>::max()};
   if (std::isinf(range.least) && no_most) return {};
   if (range.least == std::numeric_limits<double>::min() && no_most) return "above 0";
   if (no_most) return fmt::format("{:g} or more", range.least);

@@ -56,10 +56,11 @@ void KeyframeMap::add(geometry::Stamp stamp, const std::string& sensor, std::spa
   observation->timestamp = dataset::to_mrpt(stamp);
   observation->sensorLabel = sensor;
   observation->pointcloud = points;
-  mrpt::obs::CSensoryFrame frame;
-  frame.insert(observation);
-  mrpt::poses::CPose3DPDFGaussian pose(dataset::to_mrpt(T_map_body));
-  content_->map.insert(&pose, frame);
+  auto frame = mrpt::obs::CSensoryFrame::Create();
+  frame->insert(observation);
+  const mrpt::poses::CPose3DPDF::Ptr pose =
+      mrpt::poses::CPose3DPDFGaussian::Create(dataset::to_mrpt(T_map_body));
+  content_->map.insert(pose, frame);
   T_map_last_ = T_map_body;
 }
 

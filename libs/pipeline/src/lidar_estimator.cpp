@@ -129,7 +129,7 @@ UsedScan LidarEstimator::used_scan(const sensors::LidarScan& scan, const PoseFra
                                        : geometry::Twist(geometry::Twist::Zero());
   const lidar::CorrectedScan points =
       with_classes ? corrected_and_classified(scan, *sensor_.lidar, velocity, options_.features)
-                   : corrected(scan, *sensor_.lidar, velocity);
+                   : lidar::corrected(scan, *sensor_.lidar, velocity);
 
   UsedScan used;
   for (auto* values : {&used.x, &used.y, &used.z}) values->reserve(points.x.size());

@@ -35,9 +35,12 @@ HtmlTable ape_table(const evaluation::Comparison& comparison) {
   return table;
 }
 
-HtmlTable rpe_table(const evaluation::Comparison& comparison) {
+/// The two relations that people ask for, or all the others.
+HtmlTable rpe_table(const evaluation::Comparison& comparison, bool main_relations) {
   HtmlTable table({"stretch", "relation", "rmse", "mean", "median", "std", "min", "max", "pairs"});
   for (const evaluation::Rpe& rpe : comparison.rpe) {
+    const bool main = rpe.relation == Relation::kTranslation || rpe.relation == Relation::kAngleDeg;
+    if (main != main_relations) continue;
     std::vector<Cell> cells{evaluation::describe(rpe.options), relation_text(rpe.relation)};
     add_statistics(cells, rpe.statistics);
     table.add_row(std::move(cells));
@@ -87,7 +90,8 @@ void add_comparison(const evaluation::Comparison& comparison, TemplateData& page
   page.set("association", evaluation::describe(comparison.association));
   page.set("alignment", evaluation::describe(comparison.alignment, comparison.stamps.size()));
   page.set("ape_table", ape_table(comparison).data());
-  page.set("rpe_table", rpe_table(comparison).data());
+  page.set("rpe_table", rpe_table(comparison, true).data());
+  page.set("rpe_more_table", rpe_table(comparison, false).data());
   page.set("path_table", path_table(comparison.path).data());
   page.set("path_how", evaluation::path_title(comparison));
   if (comparison.kitti) {

@@ -315,8 +315,8 @@ std::vector<render::Range> spans_where(const std::vector<double>& times,
   const double half = times.size() > 1 ? 0.5 * (times[1] - times[0]) : 0.05;
   for (std::size_t i = 0; i < flags.size(); ++i) {
     if (flags[i] == 0) continue;
-    if (!spans.empty() && spans.back().most >= times[i] - 1.5 * half) {
-      spans.back().most = times[i] + half;
+    if (!spans.empty() && spans.back().high >= times[i] - 1.5 * half) {
+      spans.back().high = times[i] + half;
     } else {
       spans.push_back({times[i] - half, times[i] + half});
     }

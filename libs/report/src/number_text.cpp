@@ -45,6 +45,10 @@ std::string count_text(std::size_t count) {
   return text;
 }
 
+std::string plural(std::size_t count, const std::string& noun) {
+  return count_text(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
 std::string bytes_text(double bytes) {
   static constexpr std::array<const char*, 5> kUnits{"bytes", "kB", "MB", "GB", "TB"};
   std::size_t unit = 0;

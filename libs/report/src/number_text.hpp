@@ -15,6 +15,9 @@ std::string full_number(double value);
 /// 1234567 as "1 234 567", with thin spaces.
 std::string count_text(std::size_t count);
 
+/// "1 frame", "12 345 frames".
+std::string plural(std::size_t count, const std::string& noun);
+
 /// Bytes as "211 MB".
 std::string bytes_text(double bytes);
 

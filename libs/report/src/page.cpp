@@ -37,6 +37,7 @@ std::string make_page(const RunData& run, const std::vector<Figure>& figures,
   page.set("pipeline", run.pipeline_name());
   page.set("date", run.date());
   page.set("style", files::read_text(templates / "run.css"));
+  page.set("script", files::read_text(templates / "run.js"));
   for (const std::string name : {"figure", "table"}) {
     const std::string text = files::read_text(templates / (name + ".html"));
     page.set(name, kainjow::mustache::partial([text] { return text; }));

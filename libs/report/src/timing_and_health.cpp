@@ -83,10 +83,9 @@ void add_timing(const RunData& run, TemplateData& page) {
       true);
   page.set("timing_table", table.data());
   page.set("timing_how",
-           fmt::format("Wall time of the estimator on {} thread{}; reading the recording, maps and "
+           fmt::format("Wall time of the estimator on {}; reading the recording, maps and "
                        "evaluation are not in it. The whole run took {}, {} MB of memory at most.",
-                       run.record.at("threads").get<int>(),
-                       run.record.at("threads").get<int>() == 1 ? "" : "s",
+                       plural(run.record.at("threads"), "thread"),
                        duration_text(run.record.at("wall_seconds")),
                        short_number(run.record.at("peak_memory_mb").get<double>())));
 }

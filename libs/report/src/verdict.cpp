@@ -31,8 +31,8 @@ const evaluation::Ape* find_ape(const evaluation::Comparison& comparison, Relati
 const evaluation::Rpe* find_rpe(const evaluation::Comparison& comparison, Relation relation,
                                 double frames) {
   for (const auto& rpe : comparison.rpe) {
-    if (rpe.relation == relation && rpe.options.unit == evaluation::DeltaUnit::kFrames &&
-        rpe.options.delta == frames) {
+    if (rpe.relation == relation && rpe.options.delta.unit == evaluation::DeltaUnit::kFrames &&
+        rpe.options.delta.value == frames) {
       return &rpe;
     }
   }
@@ -52,15 +52,14 @@ std::size_t skipped_records(const RunData& run) {
 }
 
 std::string skipped_words(std::size_t skipped) {
-  if (skipped == 0) return "nothing skipped";
-  return fmt::format("{} {} skipped", count_text(skipped), skipped == 1 ? "record" : "records");
+  return skipped == 0 ? "nothing skipped" : plural(skipped, "record") + " skipped";
 }
 
 std::string sentence(const RunData& run) {
   const double ms = run.record.at("timing_ms").at("frame_median");
   std::vector<std::string> parts;
   if (const auto& comparison = run.evaluation.comparison) {
-    parts.push_back(fmt::format("Ends {} % off after {} m",
+    parts.push_back(fmt::format("Drifts {} % over {} m",
                                 short_number(end_error_percent(*comparison)),
                                 short_number(comparison->path.reference_m)));
     if (const auto* ape = find_ape(*comparison, Relation::kTranslation)) {
@@ -90,8 +89,8 @@ Headline headline(const std::string& label, double value, const std::string& uni
 
 void add_comparison_headlines(const evaluation::Comparison& comparison,
                               std::vector<Headline>& headlines) {
-  headlines.push_back(headline("End error", end_error_percent(comparison), "%",
-                               fmt::format("{} m of {} m, from the first pose on, not aligned",
+  headlines.push_back(headline("Drift", end_error_percent(comparison), "%",
+                               fmt::format("end point {} m off after {} m, from the first pose on",
                                            short_number(comparison.path.end_error_m),
                                            short_number(comparison.path.reference_m))));
   if (const auto* ape = find_ape(comparison, Relation::kTranslation)) {
@@ -117,7 +116,7 @@ std::vector<Headline> headlines(const RunData& run) {
   if (run.evaluation.comparison) add_comparison_headlines(*run.evaluation.comparison, list);
   if (const auto& score = run.evaluation.consistency) {
     list.push_back(headline("Map entropy", score->mme, "nats",
-                            fmt::format("mean over {} queries, points {}; lower is sharper",
+                            fmt::format("mean of {} queries, lower is sharper; points {}",
                                         count_text(score->queries), score->points_are)));
   }
   const auto& timing = run.record.at("timing_ms");
@@ -161,8 +160,8 @@ void add_gap_notice(const RunData& run, std::vector<Notice>& list) {
   const auto frame = static_cast<std::size_t>(longest - intervals.begin());
   list.push_back({"warn", "Gap",
                   fmt::format("{} between frames, the longest {} s after frame {} (usual: {} s).",
-                              gaps == 1 ? "One gap" : fmt::format("{} gaps", gaps),
-                              short_number(*longest), frame, short_number(usual))});
+                              plural(static_cast<std::size_t>(gaps), "gap"), short_number(*longest),
+                              frame, short_number(usual))});
 }
 
 std::vector<Notice> notices(const RunData& run) {
