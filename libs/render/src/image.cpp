@@ -1,0 +1,32 @@
+#include "traverse/render/image.hpp"
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "traverse/files/atomic_file.hpp"
+
+namespace traverse::render {
+
+Colour Image::at(int x, int y) const {
+  const std::size_t first = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                                 static_cast<std::size_t>(x));
+  return {rgb.at(first), rgb.at(first + 1), rgb.at(first + 2)};
+}
+
+std::string Image::encode_png() const {
+  // The matrix only looks at the bytes; OpenCV wants it writable and blue first.
+  const cv::Mat view(height, width, CV_8UC3, const_cast<std::uint8_t*>(rgb.data()));
+  cv::Mat blue_green_red;
+  cv::cvtColor(view, blue_green_red, cv::COLOR_RGB2BGR);
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(
+      ".png", blue_green_red, bytes,
+      {cv::IMWRITE_PNG_COMPRESSION, 6, cv::IMWRITE_PNG_STRATEGY, cv::IMWRITE_PNG_STRATEGY_DEFAULT});
+  return {bytes.begin(), bytes.end()};
+}
+
+void Image::write_png(const std::filesystem::path& path) const {
+  files::write_text(path, encode_png());
+}
+
+}  // namespace traverse::render
