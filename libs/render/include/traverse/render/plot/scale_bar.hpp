@@ -1,0 +1,16 @@
+#pragma once
+
+#include "traverse/render/plot/canvas.hpp"
+#include "traverse/render/plot/occupancy.hpp"
+#include "traverse/render/plot/plot_area.hpp"
+
+namespace traverse::render {
+
+/// A bar of a round length in metres, in the corner of `area` that carries the least data. Of equal
+/// axes only.
+void draw_scale_bar(Canvas& canvas, const PlotArea& area, const Occupancy& occupancy);
+
+/// "500 m", "2 km", "20 cm".
+std::string length_text(double metres);
+
+}  // namespace traverse::render
