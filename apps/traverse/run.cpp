@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include "traverse/config/settings.hpp"
+#include "traverse/files/input_error.hpp"
 #include "traverse/report/run_report.hpp"
 
 #include "command_line.hpp"
@@ -67,6 +68,18 @@ std::size_t expected_frames(const dataset::Source& source, const pipeline::RunOp
   return std::min(scans - 1, options.last) - options.first + 1;
 }
 
+/// A wrong preset or setting is wrong usage, told before anything is opened.
+pipeline::Preset checked_preset(const pipeline::PresetRequest& request,
+                                const std::filesystem::path& share) {
+  try {
+    pipeline::Preset preset = pipeline::load_preset(request, share);
+    pipeline::resolve_settings(preset);
+    return preset;
+  } catch (const files::InputError& error) {
+    throw CLI::ValidationError(error.what());
+  }
+}
+
 void run_recording(RunArguments& arguments, const std::vector<std::string>& command) {
   if (!arguments.reference.empty()) {
     const std::string file = std::filesystem::absolute(arguments.reference).string();
@@ -76,8 +89,7 @@ void run_recording(RunArguments& arguments, const std::vector<std::string>& comm
     arguments.recording.statements.push_back("reference.frame=" + arguments.reference_frame);
   }
   const InstalledFiles installed = find_installed_files();
-  const pipeline::Preset preset = pipeline::load_preset(arguments.preset, installed.share);
-  pipeline::resolve_settings(preset);  // a wrong setting is told before anything is opened
+  const pipeline::Preset preset = checked_preset(arguments.preset, installed.share);
   const std::unique_ptr<dataset::Source> source = arguments.recording.open();
   pipeline::Pipeline pipeline = pipeline::make_pipeline(preset, source->info(), arguments.threads);
 

@@ -132,7 +132,7 @@ BENCHMARK(odometry)
     ->Iterations(1)
     ->Repetitions(3)
     ->Unit(benchmark::kMillisecond)
-    ->ReportAggregatesOnly(false);
+    ->DisplayAggregatesOnly(true);
 
 }  // namespace
 }  // namespace traverse

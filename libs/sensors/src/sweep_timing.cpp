@@ -20,7 +20,7 @@ PointClock::PointClock(const LidarScan& scan, const LidarProfile& profile)
 
 float PointClock::operator()(std::size_t i) const {
   if (profile_.time_source == TimeSource::kData) return scan_.time[i];
-  const double azimuth = std::atan2(double{scan_.y[i]}, double{scan_.x[i]});
+  const double azimuth = std::atan2(scan_.y[i], scan_.x[i]);  // in float: exact to nanoseconds
   return static_cast<float>((sweep_fraction(azimuth, profile_) - profile_.stamp_fraction) *
                             profile_.sweep_s);
 }

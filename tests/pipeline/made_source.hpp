@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "traverse/dataset/source.hpp"
+
+namespace traverse::testing {
+
+/// A recording that consists of given measurements.
+class MadeSource : public dataset::Source {
+ public:
+  MadeSource(dataset::RecordingInfo info, std::vector<sensors::Measurement> measurements)
+      : info_(std::move(info)), measurements_(std::move(measurements)) {}
+
+  const dataset::RecordingInfo& info() const override { return info_; }
+  std::optional<sensors::Measurement> next() override {
+    if (next_ == measurements_.size()) return std::nullopt;
+    return measurements_[next_++];
+  }
+  void rewind() override { next_ = 0; }
+  const dataset::SkippedRecords& skipped() const override { return skipped_; }
+  const std::optional<dataset::Reference>& reference() const override { return reference_; }
+
+  dataset::SkippedRecords skipped_;
+  std::optional<dataset::Reference> reference_;
+
+ private:
+  dataset::RecordingInfo info_;
+  std::vector<sensors::Measurement> measurements_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace traverse::testing
