@@ -34,27 +34,37 @@ ProgressBar::ProgressBar(std::string label, std::size_t total, std::string unit)
       total_(total),
       unit_(std::move(unit)),
       terminal_(::isatty(STDERR_FILENO) == 1) {
-  if (terminal_) {
-    draw();
-  } else if (total_ > 0) {
-    fmt::print(stderr, "{}: {} {}\n", label_, total_, unit_);
-  }
+  if (terminal_) draw();
 }
 
 ProgressBar::~ProgressBar() {
   if (terminal_ && !finished_) fmt::print(stderr, "\n");  // an error message follows: own line
 }
 
-void ProgressBar::update(std::size_t done) {
+std::optional<double> ProgressBar::share() const {
+  if (finished_) return 1;
+  if (given_share_) return std::clamp(*given_share_, 0.0, 1.0);
+  if (total_ == 0) return std::nullopt;
+  return std::min(1.0, static_cast<double>(done_) / static_cast<double>(total_));
+}
+
+double ProgressBar::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void ProgressBar::update(std::size_t done, std::optional<double> given_share) {
   done_ = done;
-  const auto now = std::chrono::steady_clock::now();
+  given_share_ = given_share;
   if (terminal_) {
+    const auto now = std::chrono::steady_clock::now();
     if (now - last_drawn_ < kRedrawInterval) return;
     last_drawn_ = now;
     draw();
-  } else if (total_ > 0 && done_ * 10 >= next_logged_tenth_ * total_ && done_ < total_) {
-    next_logged_tenth_ = done_ * 10 / total_ + 1;
-    print_line();
+    return;
+  }
+  const int tenths = static_cast<int>(share().value_or(0) * 10);
+  if (tenths > std::exchange(logged_tenths_, std::max(tenths, logged_tenths_)) && tenths < 10) {
+    fmt::print(stderr, "{}: {}\n", label_, text());
   }
 }
 
@@ -64,39 +74,29 @@ void ProgressBar::finish() {
     draw();
     fmt::print(stderr, "\n");
   } else {
-    print_line();
+    fmt::print(stderr, "{}: {}\n", label_, text());
   }
 }
 
-std::string ProgressBar::rate_and_time_left() const {
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  if (done_ == 0 || seconds <= 0) return "";
-  const double rate = static_cast<double>(done_) / seconds;
-  if (finished_ || total_ == 0) {
-    return fmt::format("{:.1f} {}/s  {} elapsed", rate, unit_, clock_text(seconds));
+/// "44/108 frames, 41 %, 21.3 frames/s, 0:03 left"
+std::string ProgressBar::text() const {
+  const std::optional<double> part = share();
+  std::string text = total_ > 0 ? fmt::format("{}/{} {}", done_, total_, unit_)
+                                : fmt::format("{} {}", done_, unit_);
+  if (part && !finished_) text += fmt::format(", {:.0f} %", 100 * *part);
+  const double elapsed = seconds();
+  if (done_ > 0 && elapsed > 0) {
+    text += fmt::format(", {:.1f} {}/s", static_cast<double>(done_) / elapsed, unit_);
   }
-  const double left = static_cast<double>(total_ - std::min(done_, total_)) / rate;
-  return fmt::format("{:.1f} {}/s  {} left", rate, unit_, clock_text(left));
+  if (finished_) return text + fmt::format(", {}", clock_text(elapsed));
+  if (part && *part > 0) text += fmt::format(", {} left", clock_text(elapsed * (1 / *part - 1)));
+  return text;
 }
 
-void ProgressBar::draw() {
-  if (total_ == 0) {
-    fmt::print(stderr, "\r\x1b[K{}  {} {}  {}", label_, done_, unit_, rate_and_time_left());
-  } else {
-    const double share = std::min(1.0, static_cast<double>(done_) / static_cast<double>(total_));
-    fmt::print(stderr, "\r\x1b[K{} {} {:3.0f} %  {}/{} {}  {}", label_, bar_text(share),
-               100 * share, done_, total_, unit_, rate_and_time_left());
-  }
+void ProgressBar::draw() const {
+  const std::optional<double> part = share();
+  fmt::print(stderr, "\r\x1b[K{} {}{}", label_, part ? bar_text(*part) + " " : "", text());
   std::fflush(stderr);
-}
-
-void ProgressBar::print_line() const {
-  if (total_ == 0) {
-    fmt::print(stderr, "{}: {} {}  {}\n", label_, done_, unit_, rate_and_time_left());
-  } else {
-    fmt::print(stderr, "{}: {}/{} {}  {}\n", label_, done_, total_, unit_, rate_and_time_left());
-  }
 }
 
 }  // namespace traverse::app

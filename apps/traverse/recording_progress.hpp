@@ -9,8 +9,8 @@
 
 namespace traverse::app {
 
-/// How far the reading of a recording has come: in scans where their number is known, else in
-/// megabytes of the file.
+/// How far the reading of a recording has come: in scans, and in the share of the file that has
+/// been read where the number of scans is not known before.
 class RecordingProgress {
  public:
   /// `source` must outlive this.
@@ -22,7 +22,6 @@ class RecordingProgress {
 
  private:
   const dataset::Source& source_;
-  std::size_t megabytes_;
   std::size_t scans_ = 0;
   ProgressBar bar_;
 };

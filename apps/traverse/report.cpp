@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "traverse/pipeline/run_folder.hpp"
-#include "traverse/report/run_report.hpp"
 
 #include "commands.hpp"
 #include "installed_files.hpp"
+#include "report_progress.hpp"
 
 namespace traverse::app {
 
@@ -18,7 +18,7 @@ void add_report(CLI::App& app) {
   report->add_option("RUN", *folder, "run folder")->required()->check(CLI::ExistingDirectory);
   report->footer("Example:\n  traverse report RUN");
   report->callback([folder] {
-    report::write_run_report(*folder, find_installed_files().templates);
+    write_report_with_progress(*folder, find_installed_files().templates);
     fmt::print("{}\n", pipeline::RunFolder{*folder}.report().string());
   });
 }

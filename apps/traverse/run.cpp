@@ -13,13 +13,13 @@
 
 #include "traverse/config/settings.hpp"
 #include "traverse/files/input_error.hpp"
-#include "traverse/report/run_report.hpp"
 
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "installed_files.hpp"
 #include "progress_bar.hpp"
 #include "recording_options.hpp"
+#include "report_progress.hpp"
 #include "run_summary.hpp"
 
 namespace traverse::app {
@@ -105,11 +105,13 @@ void run_recording(RunArguments& arguments, const std::vector<std::string>& comm
   ProgressBar bar(pipeline.name, expected_frames(*source, options), "frames");
   pipeline::RunObserver observer;
   observer.stop = &stop_requested;
-  observer.frame = [&](std::size_t done) { bar.update(done); };
+  observer.frame = [&](std::size_t done) {
+    bar.update(done, source->info().expected_scans > 0 ? std::nullopt : source->share_read());
+  };
   observer.stage = [&](const std::string&) { bar.finish(); };
   const pipeline::RunRecord record = pipeline::run(*source, pipeline, folder, options, observer);
 
-  if (arguments.report) report::write_run_report(folder.path, installed.templates);
+  if (arguments.report) write_report_with_progress(folder.path, installed.templates);
   print_run_summary(record, folder, arguments.report);
   if (!record.evaluation_error.empty()) {
     throw std::runtime_error("the run is complete, but it could not be compared with " +

@@ -49,11 +49,12 @@ function(traverse_library name)
     PRIVATE ${ARG_PRIVATELY_USES} traverse_build_flags)
 endfunction()
 
-# traverse_test(NAME SOURCES ... USES ...)
+# traverse_test(NAME [WHOLE] SOURCES ... USES ... [TIMEOUT seconds])
 #
-# Defines the GoogleTest program NAME_test and registers each of its cases with CTest.
+# Defines the GoogleTest program NAME_test and registers each of its cases with CTest; with WHOLE the
+# program is one test, for suites whose set-up is dear.
 function(traverse_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;USES" ${ARGN})
+  cmake_parse_arguments(ARG "WHOLE" "TIMEOUT" "SOURCES;USES" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 600)
   endif()
@@ -63,6 +64,11 @@ function(traverse_test name)
     TRAVERSE_SOURCE_DIR="${CMAKE_SOURCE_DIR}" TRAVERSE_SHARE_DIR="${CMAKE_SOURCE_DIR}/share")
   target_link_libraries(${name}_test
     PRIVATE ${ARG_USES} GTest::gmock GTest::gtest_main traverse_build_flags)
-  gtest_discover_tests(${name}_test
-    TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+  if(ARG_WHOLE)
+    add_test(NAME ${name} COMMAND ${name}_test)
+    set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+  else()
+    gtest_discover_tests(${name}_test
+      TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+  endif()
 endfunction()

@@ -37,8 +37,10 @@ using render::Style;
 /// Draws one picture after another with one renderer.
 class FigureMaker {
  public:
-  FigureMaker(const RunData& run, const std::function<void(const std::string&)>& progress)
-      : run_(run), progress_(progress), images_(pipeline::RunFolder{run.folder}.images()) {
+  FigureMaker(const RunData& run, const std::function<void(const std::string&)>& picture_drawn)
+      : run_(run),
+        picture_drawn_(picture_drawn),
+        images_(pipeline::RunFolder{run.folder}.images()) {
     files::make_writable_folder(images_);
     style_dark_.theme = render::dark_theme();
   }
@@ -52,11 +54,11 @@ class FigureMaker {
   template <typename Draw>
   void add(const std::string& section, const std::string& name, const std::string& text,
            const Draw& draw) {
-    progress_("picture: " + name);
     Figure figure{name, section, text, {}, {}};
     figure.light_png = finished(draw(style_light_), name + ".png");
     figure.dark_png = finished(draw(style_dark_), name + "_dark.png");
     figures_.push_back(std::move(figure));
+    picture_drawn_(name);
   }
 
   std::vector<Figure> take() { return std::move(figures_); }
@@ -69,7 +71,7 @@ class FigureMaker {
   }
 
   const RunData& run_;
-  const std::function<void(const std::string&)>& progress_;
+  const std::function<void(const std::string&)>& picture_drawn_;
   std::filesystem::path images_;
   render::Renderer renderer_;
   Style style_light_;
@@ -382,8 +384,8 @@ void add_timing(const RunData& run, FigureMaker& maker) {
 }  // namespace
 
 std::vector<Figure> draw_figures(const RunData& run,
-                                 const std::function<void(const std::string&)>& progress) {
-  FigureMaker maker(run, progress);
+                                 const std::function<void(const std::string&)>& picture_drawn) {
+  FigureMaker maker(run, picture_drawn);
   add_trajectories(run, maker);
   if (run.evaluation.comparison) {
     add_coloured_trajectory(run, maker);

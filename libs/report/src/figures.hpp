@@ -20,6 +20,6 @@ struct Figure {
 /// Draws every picture that the run has data for and writes them to images/NAME.png and
 /// images/NAME_dark.png. \throws files::OutputError
 std::vector<Figure> draw_figures(const RunData& run,
-                                 const std::function<void(const std::string&)>& progress);
+                                 const std::function<void(const std::string&)>& picture_drawn);
 
 }  // namespace traverse::report

@@ -14,8 +14,7 @@ namespace traverse::report {
 void write_run_report(const std::filesystem::path& run_folder,
                       const std::filesystem::path& templates, const RunReportOptions& options) {
   const RunData run = read_run(run_folder);
-  const std::vector<Figure> figures = draw_figures(run, options.progress);
-  options.progress("report");
+  const std::vector<Figure> figures = draw_figures(run, options.picture_drawn);
   files::write_text(pipeline::RunFolder{run_folder}.report(), make_page(run, figures, templates));
 }
 

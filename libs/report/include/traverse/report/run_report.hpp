@@ -7,8 +7,8 @@
 namespace traverse::report {
 
 struct RunReportOptions {
-  /// Called before each step that takes time: "picture: trajectory from above", "report".
-  std::function<void(const std::string&)> progress = [](const std::string&) {};
+  /// Called with the name of each picture that is finished.
+  std::function<void(const std::string&)> picture_drawn = [](const std::string&) {};
 };
 
 /// Draws the pictures of a finished run (images/*.png, for light and for dark pages) and writes
