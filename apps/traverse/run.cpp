@@ -143,10 +143,11 @@ void add_run(CLI::App& app) {
       ->capture_default_str();
   run->add_option("--config", arguments->preset.config_files, "YAML file laid over the preset")
       ->type_name("FILE")
-      ->check(CLI::ExistingFile);
+      ->check(CLI::ExistingFile)
+      ->allow_extra_args(false);
   run->add_option("--set", arguments->preset.assignments, "one setting, stronger than any file")
       ->type_name("KEY=VALUE")
-      ->expected(1);
+      ->allow_extra_args(false);
   run->add_option("--first", arguments->first, "first frame, counted from 0")
       ->capture_default_str();
   run->add_option("--last", arguments->last, "last frame, included");

@@ -117,14 +117,16 @@ TEST_F(RunCommand, TheReportCanBeMadeAgainFromTheFolder) {
 TEST_F(RunCommand, SettingsAndRangesAreKept) {
   const ProgramResult result =
       run_program("run " + recording() + " -o " + file("part") +
-                  " --first 2 --last 7 --set map.radius_m=60 --no-report --no-hash");
+                  " --first 2 --last 7 --set map.radius_m=60 --no-report --no-hash "
+                  "--set solver.huber_m=0.2");
   ASSERT_EQ(result.status, 0) << result.messages;
   const json part = record("part");
   EXPECT_EQ(part["frames"]["used"], 6);
   EXPECT_EQ(part["frames"]["first"], 2);
   EXPECT_TRUE(part["recording"]["sha256"].is_null());
   for (const json& setting : part["configuration"]["settings"]) {
-    EXPECT_EQ(setting["changed"].get<bool>(), setting["key"] == "map.radius_m");
+    EXPECT_EQ(setting["changed"].get<bool>(),
+              setting["key"] == "map.radius_m" || setting["key"] == "solver.huber_m");
   }
 }
 
