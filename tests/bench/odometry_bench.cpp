@@ -20,7 +20,7 @@
 #include <nanoflann.hpp>
 
 #include "traverse/dataset/open_recording.hpp"
-#include "traverse/lidar/odometry.hpp"
+#include "traverse/lidar/scan_to_map_odometry.hpp"
 
 #include "lidar/simulated_drive.hpp"
 #include "test_data.hpp"
@@ -100,11 +100,11 @@ double median_of(const std::vector<lidar::Frame>& frames,
 void odometry(benchmark::State& state) {
   static const Recording recording = load_recording();
   static const double calibration = calibration_ms();
-  lidar::OdometryOptions options;
+  lidar::ScanToMapOdometryOptions options;
   options.threads = static_cast<int>(state.range(0));
   std::vector<lidar::Frame> frames;
   for (auto _ : state) {
-    lidar::LidarOdometry odometry(options, recording.profile, false);
+    lidar::ScanToMapOdometry odometry(options, recording.profile, false);
     frames.clear();
     for (const auto& scan : recording.scans) {
       for (lidar::Frame& frame : odometry.process(scan)) frames.push_back(std::move(frame));

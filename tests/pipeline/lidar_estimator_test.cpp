@@ -6,6 +6,7 @@
 
 #include "geometry/random_motion.hpp"
 #include "lidar/simulated_drive.hpp"
+#include "traverse/lidar/scan_to_map_odometry.hpp"
 
 namespace traverse::pipeline {
 namespace {
@@ -22,11 +23,19 @@ dataset::RecordingInfo recording_with(const sensors::LidarProfile& profile,
   return info;
 }
 
-lidar::OdometryOptions quick_options() {
-  lidar::OdometryOptions options;
+lidar::ScanToMapOdometryOptions quick_options() {
+  lidar::ScanToMapOdometryOptions options;
   options.start.scans = 2;
   options.start.slowest_mps = options.start.fastest_mps = 10;
   return options;
+}
+
+LidarEstimator make_estimator(const lidar::ScanToMapOdometryOptions& options,
+                              const dataset::RecordingInfo& recording) {
+  const auto make = [&](const sensors::LidarProfile& profile, bool motion_compensated) {
+    return std::make_unique<lidar::ScanToMapOdometry>(options, profile, motion_compensated);
+  };
+  return LidarEstimator(make, recording);
 }
 
 std::vector<PoseFrame> run(LidarEstimator& estimator, const testing::SimulatedDrive& drive) {
@@ -43,7 +52,8 @@ TEST(LidarEstimator, PosesAreOfTheBodyNotOfTheLidar) {
   const testing::SimulatedDrive drive(simulation::street(60, 1), 5, 10);
   testing::RandomMotion random(1);
   const geometry::Pose3 T_body_lidar = random.pose(1, 2);
-  LidarEstimator estimator(quick_options(), recording_with(drive.scanner.profile, T_body_lidar));
+  LidarEstimator estimator =
+      make_estimator(quick_options(), recording_with(drive.scanner.profile, T_body_lidar));
   const auto frames = run(estimator, drive);
   ASSERT_EQ(frames.size(), 5U);
   EXPECT_LT((frames[0].T_map_body.matrix() - Eigen::Matrix4d::Identity()).norm(), 1e-12);
@@ -59,7 +69,8 @@ TEST(LidarEstimator, UsedScansLieOnOneAnotherInTheMap) {
   const testing::SimulatedDrive drive(simulation::street(60, 1), 3, 10);
   geometry::Pose3 T_body_lidar;
   T_body_lidar.translation = {0, 0, 1.8};  // the body stands on the ground
-  LidarEstimator estimator(quick_options(), recording_with(drive.scanner.profile, T_body_lidar));
+  LidarEstimator estimator =
+      make_estimator(quick_options(), recording_with(drive.scanner.profile, T_body_lidar));
   const auto frames = run(estimator, drive);
   const UsedScan used = estimator.used_scan(drive.scans[1], frames[1], true);
   EXPECT_EQ(used.feature_class.size(), used.x.size());
@@ -73,8 +84,8 @@ TEST(LidarEstimator, UsedScansLieOnOneAnotherInTheMap) {
 
 TEST(LidarEstimator, ColumnsAndRecordsAgree) {
   const testing::SimulatedDrive drive(simulation::street(60, 1), 3, 10);
-  LidarEstimator estimator(quick_options(),
-                           recording_with(drive.scanner.profile, geometry::Pose3()));
+  LidarEstimator estimator =
+      make_estimator(quick_options(), recording_with(drive.scanner.profile, geometry::Pose3()));
   for (const PoseFrame& frame : run(estimator, drive)) {
     EXPECT_EQ(frame.record.size(), estimator.columns().size());
     EXPECT_GT(frame.milliseconds, 0);
@@ -82,8 +93,8 @@ TEST(LidarEstimator, ColumnsAndRecordsAgree) {
 }
 
 TEST(LidarEstimator, OtherSensorsAreNoFrames) {
-  LidarEstimator estimator(quick_options(),
-                           recording_with(sensors::LidarProfile{}, geometry::Pose3()));
+  LidarEstimator estimator =
+      make_estimator(quick_options(), recording_with(sensors::LidarProfile{}, geometry::Pose3()));
   EXPECT_TRUE(estimator.process(sensors::ImuSample{}).empty());
   auto other = std::make_shared<sensors::LidarScan>();
   other->sensor = "rear lidar";
@@ -93,7 +104,7 @@ TEST(LidarEstimator, OtherSensorsAreNoFrames) {
 
 TEST(LidarEstimator, NeedsALidar) {
   dataset::RecordingInfo info;
-  EXPECT_THROW(LidarEstimator(quick_options(), info), std::runtime_error);
+  EXPECT_THROW(make_estimator(quick_options(), info), std::runtime_error);
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ TEST(Preset, FilesAndAssignmentsLieOverItAndAreMarked) {
 
 TEST(Preset, AFileInTheFormOfAPresetIsOne) {
   const TemporaryFolder folder;
-  files::write_text(folder / "own.yaml", "estimator: lidar_odometry\ndeskew: false\n");
+  files::write_text(folder / "own.yaml", "estimator: scan_to_map\ndeskew: false\n");
   const Preset preset = load_preset({(folder / "own.yaml").string(), {}, {}}, TRAVERSE_SHARE_DIR);
   EXPECT_EQ(preset.name, "own");
   EXPECT_FALSE(std::get<bool>(find(resolve_settings(preset), "deskew").setting.value));
@@ -71,7 +71,7 @@ TEST(Preset, SaysWhatIsWrong) {
   EXPECT_THAT(error_of({"floam", {}, {"solver.huber=1"}}),
               HasSubstr("did you mean 'solver.huber_m'"));
   EXPECT_THAT(error_of({"floam", {}, {"solver.huber_m=-1"}}), HasSubstr("above 0"));
-  EXPECT_THAT(error_of({"floam", {}, {"estimator=magic"}}), HasSubstr("one of lidar_odometry"));
+  EXPECT_THAT(error_of({"floam", {}, {"estimator=magic"}}), HasSubstr("one of scan_to_map"));
   const TemporaryFolder folder;
   files::write_text(folder / "mine.yaml", "\nsolver:\n  huber_m: wide\n");
   EXPECT_THAT(error_of({"floam", {folder / "mine.yaml"}, {}}), HasSubstr("mine.yaml, line 3"));

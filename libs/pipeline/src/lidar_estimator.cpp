@@ -83,11 +83,14 @@ geometry::Twist moved_to_body(const geometry::Twist& velocity_sensor,
 
 }  // namespace
 
-LidarEstimator::LidarEstimator(const lidar::OdometryOptions& options,
-                               const dataset::RecordingInfo& recording)
-    : options_(options),
-      sensor_(first_lidar(recording)),
-      odometry_(options, *sensor_.lidar, recording.motion_compensated) {}
+LidarEstimator::LidarEstimator(const MakeOdometry& make, const dataset::RecordingInfo& recording)
+    : sensor_(first_lidar(recording)),
+      odometry_(make(*sensor_.lidar, recording.motion_compensated)) {
+  if (const auto* imu = recording.rig.first(sensors::SensorKind::kImu)) {
+    imu_ = imu->label;
+    T_lidar_imu_ = sensor_.T_body_sensor.inverse() * imu->T_body_sensor;
+  }
+}
 
 const std::vector<std::string>& LidarEstimator::columns() const {
   static const std::vector<std::string> kColumns = [] {
@@ -100,12 +103,24 @@ const std::vector<std::string>& LidarEstimator::columns() const {
 }
 
 std::vector<PoseFrame> LidarEstimator::process(const sensors::Measurement& measurement) {
+  if (const auto* imu = std::get_if<sensors::ImuSample>(&measurement)) {
+    observe(*imu);
+    return {};
+  }
   const auto* scan = std::get_if<std::shared_ptr<const sensors::LidarScan>>(&measurement);
   if (scan == nullptr || (*scan)->sensor != sensor_.label) return {};
-  return to_body(odometry_.process(**scan));
+  return to_body(odometry_->process(**scan));
 }
 
-std::vector<PoseFrame> LidarEstimator::finish() { return to_body(odometry_.finish()); }
+void LidarEstimator::observe(const sensors::ImuSample& sample) {
+  if (sample.sensor != imu_) return;
+  sensors::ImuSample turned = sample;
+  turned.angular_rate = T_lidar_imu_.rotation * sample.angular_rate;
+  turned.specific_force = T_lidar_imu_.rotation * sample.specific_force;
+  odometry_->observe(turned);
+}
+
+std::vector<PoseFrame> LidarEstimator::finish() { return to_body(odometry_->finish()); }
 
 std::vector<PoseFrame> LidarEstimator::to_body(const std::vector<lidar::Frame>& frames) const {
   std::vector<PoseFrame> result;
@@ -124,12 +139,8 @@ std::vector<PoseFrame> LidarEstimator::to_body(const std::vector<lidar::Frame>& 
 UsedScan LidarEstimator::used_scan(const sensors::LidarScan& scan, const PoseFrame& frame,
                                    bool with_classes) const {
   const geometry::Pose3 T_sensor_body = sensor_.T_body_sensor.inverse();
-  const geometry::Twist velocity = odometry_.deskew_note() == "on"
-                                       ? moved_to_body(frame.velocity, T_sensor_body)
-                                       : geometry::Twist(geometry::Twist::Zero());
   const lidar::CorrectedScan points =
-      with_classes ? corrected_and_classified(scan, *sensor_.lidar, velocity, options_.features)
-                   : lidar::corrected(scan, *sensor_.lidar, velocity);
+      odometry_->used_scan(scan, moved_to_body(frame.velocity, T_sensor_body), with_classes);
 
   UsedScan used;
   for (auto* values : {&used.x, &used.y, &used.z}) values->reserve(points.x.size());
@@ -154,12 +165,12 @@ std::string LidarEstimator::points_are() const {
   const double correction = sensor_.lidar->vertical_correction_deg;
   const std::string elevation =
       correction == 0 ? "" : fmt::format("elevation corrected by {:+g} deg, ", correction);
-  return elevation + (odometry_.deskew_note() == "on" ? "deskewed" : "not deskewed");
+  return elevation + (odometry_->deskew_note() == "on" ? "deskewed" : "not deskewed");
 }
 
 std::vector<Decision> LidarEstimator::decisions() const {
   return {{"lidar", fmt::format("{} ({})", sensor_.label, sensor_.lidar->name)},
-          {"deskew", odometry_.deskew_note()},
+          {"deskew", odometry_->deskew_note()},
           {"points", points_are()}};
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "traverse/dataset/source.hpp"
-#include "traverse/lidar/corrected_scan.hpp"
 #include "traverse/lidar/odometry.hpp"
 #include "traverse/pipeline/estimator.hpp"
 
@@ -14,8 +14,12 @@ namespace traverse::pipeline {
 /// Lidar odometry on the first lidar of the rig; the map frame is the body frame of the first scan.
 class LidarEstimator final : public Estimator {
  public:
+  /// Makes the algorithm for a sensor; the flag says that scans are motion-compensated already.
+  using MakeOdometry = std::function<std::unique_ptr<lidar::Odometry>(
+      const sensors::LidarProfile& profile, bool motion_compensated)>;
+
   /// \throws std::runtime_error if the rig has no lidar.
-  LidarEstimator(const lidar::OdometryOptions& options, const dataset::RecordingInfo& recording);
+  LidarEstimator(const MakeOdometry& make, const dataset::RecordingInfo& recording);
 
   const std::vector<std::string>& columns() const override;
   std::vector<PoseFrame> process(const sensors::Measurement& measurement) override;
@@ -27,10 +31,12 @@ class LidarEstimator final : public Estimator {
 
  private:
   std::vector<PoseFrame> to_body(const std::vector<lidar::Frame>& frames) const;
+  void observe(const sensors::ImuSample& sample);
 
-  lidar::OdometryOptions options_;
   sensors::MountedSensor sensor_;
-  lidar::LidarOdometry odometry_;
+  geometry::Pose3 T_lidar_imu_;
+  std::string imu_;  ///< label of the first IMU of the rig; empty: none
+  std::unique_ptr<lidar::Odometry> odometry_;
 };
 
 }  // namespace traverse::pipeline

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "traverse/files/input_error.hpp"
+#include "traverse/lidar/scan_to_map_odometry.hpp"
 
 #include "lidar_estimator.hpp"
 
@@ -42,17 +43,24 @@ std::vector<config::Setting> settings_of(const config::Document& document) {
   return config::list([&](config::Binder& b) { bind(b, options); });
 }
 
-std::unique_ptr<Estimator> make_lidar_odometry(const config::Document& document,
-                                               const dataset::RecordingInfo& recording,
-                                               int threads) {
-  auto options = read_options<lidar::OdometryOptions>(document);
+/// An estimator of the lidar kind: an algorithm and the options it is made from.
+template <typename Odometry, typename Options>
+std::unique_ptr<Estimator> make_lidar(const config::Document& document,
+                                      const dataset::RecordingInfo& recording, int threads) {
+  auto options = read_options<Options>(document);
   options.threads = threads;
-  return std::make_unique<LidarEstimator>(options, recording);
+  const auto make = [&](const sensors::LidarProfile& profile, bool motion_compensated) {
+    return std::make_unique<Odometry>(options, profile, motion_compensated);
+  };
+  return std::make_unique<LidarEstimator>(make, recording);
 }
+
+template <typename Odometry, typename Options>
+constexpr Kind kLidarKind{settings_of<Options>, make_lidar<Odometry, Options>};
 
 const Kind& find_kind(const Preset& preset) {
   static const std::map<std::string, Kind, std::less<>> kKinds{
-      {"lidar_odometry", {settings_of<lidar::OdometryOptions>, make_lidar_odometry}}};
+      {"scan_to_map", kLidarKind<lidar::ScanToMapOdometry, lidar::ScanToMapOdometryOptions>}};
   const std::string name = preset.resolved.scalar("estimator").value_or("");
   const auto found = kKinds.find(name);
   if (found != kKinds.end()) return found->second;

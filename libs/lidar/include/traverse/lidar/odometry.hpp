@@ -1,81 +1,41 @@
 #pragma once
 
-#include <cstddef>
-#include <optional>
+#include <string>
 #include <vector>
 
-#include "traverse/config/binder.hpp"
+#include "traverse/geometry/pose3.hpp"
+#include "traverse/lidar/corrected_scan.hpp"
 #include "traverse/lidar/frame.hpp"
-#include "traverse/lidar/scan_to_map.hpp"
-#include "traverse/lidar/speed_search.hpp"
+#include "traverse/sensors/imu_sample.hpp"
+#include "traverse/sensors/lidar_scan.hpp"
 
 namespace traverse::lidar {
 
-struct OdometryOptions {
-  bool deskew =
-      true;  ///< undo the motion within a sweep, unless the recording did or gives no times
-  FeatureOptions features;
-  ThinningOptions thinning;
-  MapOptions map;
-  AssociationOptions association;
-  SolverOptions solver;
-  int registration_steps = 2;         ///< associations with a solve each, of a frame
-  int first_registration_steps = 12;  ///< of the second frame; one fewer each frame until the above
-  SpeedSearchOptions start;
-  int threads = 1;  ///< of association; the result does not depend on it
-};
-void bind(config::Binder& binder, OdometryOptions& options);
-
-/// Lidar odometry that registers each scan's edge and planar points in a local map: F-LOAM (Wang,
-/// Wang, Chen and Xie, "F-LOAM: Fast lidar odometry and mapping", IROS 2021) with its faults
-/// mended:
-///  * sectors cover every point; occluded and grazing points are rejected as in LOAM;
-///  * planes by principal components, lines guarded at zero distance;
-///  * the motion model knows the true time between scans, and the first speed is searched for;
-///  * degenerate directions keep their prediction;
-///  * deskew in two stages as published: by the predicted motion for registration, by the
-///    estimated motion for the map.
-class LidarOdometry {
+/// An algorithm that follows a lidar from scan to scan. Everything is in the lidar's own frame; the
+/// map frame is that of the first scan. The result depends on the scans and the options alone.
+class Odometry {
  public:
-  /// \param profile of the sensor  \param motion_compensated the scans need no deskew
-  LidarOdometry(const OdometryOptions& options, const sensors::LidarProfile& profile,
-                bool motion_compensated);
+  virtual ~Odometry() = default;
 
   /// Takes the next scan; stamps must increase. \returns the frames that are now known, in order:
   /// usually one, none while the start is held back, several when it ends.
-  /// \throws sensors::NoRings if the scan cannot be divided into scan lines.
-  std::vector<Frame> process(const sensors::LidarScan& scan);
+  /// \throws sensors::NoRings if the scan cannot be divided into scan lines and the algorithm
+  /// needs them.
+  virtual std::vector<Frame> process(const sensors::LidarScan& scan) = 0;
 
   /// The frames still held back when the recording ends early.
-  std::vector<Frame> finish();
+  virtual std::vector<Frame> finish() = 0;
 
-  /// Whether scans are deskewed, and, if not, why.
-  const std::string& deskew_note() const { return deskew_note_; }
+  /// Takes an inertial sample, its vectors turned into the lidar's axes, before the scans that end
+  /// after it. Odometry that uses no IMU ignores it.
+  virtual void observe(const sensors::ImuSample& /*sample_lidar*/) {}
 
-  const ScanToMap& map() const { return map_; }
+  /// Whether scans are deskewed ("on"), and, if not, why.
+  virtual const std::string& deskew_note() const = 0;
 
- private:
-  std::vector<Frame> begin();
-  Frame advance(const ScanFeatures& features, const StageTimes& prepared);
-  int steps_of_this_frame() const;
-
-  OdometryOptions options_;
-  sensors::LidarProfile profile_;
-  std::string deskew_note_;
-  ScanToMapOptions scan_to_map_;
-  ScanToMap map_;
-
-  struct Prepared {
-    ScanFeatures features;
-    StageTimes ms;
-  };
-  std::vector<Prepared> held_back_;
-  bool begun_ = false;
-
-  std::size_t frames_ = 0;
-  geometry::Stamp last_stamp_;
-  geometry::Pose3 T_map_last_;
-  geometry::Twist velocity_ = geometry::Twist::Zero();  // at the last frame
+  /// The points of a scan as this algorithm uses them. \param velocity the frame's
+  virtual CorrectedScan used_scan(const sensors::LidarScan& scan, const geometry::Twist& velocity,
+                                  bool with_classes) const = 0;
 };
 
 }  // namespace traverse::lidar

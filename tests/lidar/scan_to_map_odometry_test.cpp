@@ -1,4 +1,4 @@
-#include "traverse/lidar/odometry.hpp"
+#include "traverse/lidar/scan_to_map_odometry.hpp"
 
 #include <limits>
 
@@ -13,8 +13,8 @@ namespace {
 
 using testing::SimulatedDrive;
 
-std::vector<Frame> run(const SimulatedDrive& drive, const OdometryOptions& options) {
-  LidarOdometry odometry(options, drive.scanner.profile, false);
+std::vector<Frame> run(const SimulatedDrive& drive, const ScanToMapOdometryOptions& options) {
+  ScanToMapOdometry odometry(options, drive.scanner.profile, false);
   std::vector<Frame> frames;
   for (const auto& scan : drive.scans) {
     for (const Frame& frame : odometry.process(scan)) frames.push_back(frame);
@@ -24,8 +24,8 @@ std::vector<Frame> run(const SimulatedDrive& drive, const OdometryOptions& optio
 }
 
 /// The defaults, with few hypotheses of the initial speed: the search has its own test.
-OdometryOptions quick_start() {
-  OdometryOptions options;
+ScanToMapOdometryOptions quick_start() {
+  ScanToMapOdometryOptions options;
   options.start.slowest_mps = 8;
   options.start.fastest_mps = 16;
   return options;
@@ -63,7 +63,7 @@ TEST_F(StreetOdometry, FollowsADriveThatStartsAtSpeed) {
 }
 
 TEST_F(StreetOdometry, StartingFromRestLagsBehind) {
-  OdometryOptions options = quick_start();
+  ScanToMapOdometryOptions options = quick_start();
   options.start.scans = 0;
   EXPECT_GT(worst_position_error(run(street(), options), street()), 0.3);
 }
@@ -71,7 +71,7 @@ TEST_F(StreetOdometry, StartingFromRestLagsBehind) {
 TEST_F(StreetOdometry, SameBitsOnRepeatAndForAnyNumberOfThreads) {
   const auto one = run(street(), quick_start());
   for (const int threads : {1, 2, 4}) {
-    OdometryOptions options = quick_start();
+    ScanToMapOdometryOptions options = quick_start();
     options.threads = threads;
     const auto many = run(street(), options);
     for (std::size_t i = 0; i < one.size(); ++i) {
@@ -126,7 +126,7 @@ TEST(Odometry, WithoutDeskewASwervingDriveIsWorse) {
   swerving.amplitude_m = 3;
   swerving.wavelength_m = 40;  // up to 0.9 rad/s
   const SimulatedDrive drive(simulation::street(60, 1), 24, swerving);
-  OdometryOptions options = quick_start();
+  ScanToMapOdometryOptions options = quick_start();
   const double with_deskew = worst_position_error(run(drive, options), drive);
   options.deskew = false;
   EXPECT_GT(worst_position_error(run(drive, options), drive), 2 * with_deskew);
@@ -146,17 +146,17 @@ TEST(Odometry, ATunnelIsReportedDegenerateAndTheEstimateDoesNotJump) {
 
 TEST(Odometry, SaysWhyItDoesNotDeskew) {
   sensors::LidarProfile profile;
-  EXPECT_EQ(LidarOdometry({}, profile, false).deskew_note(), "on");
-  EXPECT_EQ(LidarOdometry({}, profile, true).deskew_note(),
+  EXPECT_EQ(ScanToMapOdometry({}, profile, false).deskew_note(), "on");
+  EXPECT_EQ(ScanToMapOdometry({}, profile, true).deskew_note(),
             "off: the recording is motion-compensated");
   profile.time_source = sensors::TimeSource::kNone;
-  EXPECT_EQ(LidarOdometry({}, profile, false).deskew_note(), "off: point times are unknown");
+  EXPECT_EQ(ScanToMapOdometry({}, profile, false).deskew_note(), "off: point times are unknown");
 }
 
 TEST(Odometry, AScanWithoutRingsIsAnError) {
   sensors::LidarScan scan;
   scan.x = scan.y = scan.z = {1, 2, 3};
-  LidarOdometry odometry({}, sensors::LidarProfile{}, false);
+  ScanToMapOdometry odometry({}, sensors::LidarProfile{}, false);
   EXPECT_THROW(odometry.process(scan), sensors::NoRings);
 }
 

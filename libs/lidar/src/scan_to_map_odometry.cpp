@@ -1,4 +1,4 @@
-#include "traverse/lidar/odometry.hpp"
+#include "traverse/lidar/scan_to_map_odometry.hpp"
 
 #include <algorithm>
 #include <string>
@@ -12,12 +12,12 @@ namespace traverse::lidar {
 
 namespace {
 
-ScanToMapOptions scan_to_map_options(const OdometryOptions& options, bool deskew) {
+ScanToMapOptions scan_to_map_options(const ScanToMapOdometryOptions& options, bool deskew) {
   return {options.map, options.association, options.solver, deskew, options.threads};
 }
 
-std::string describe_deskew(const OdometryOptions& options, const sensors::LidarProfile& profile,
-                            bool motion_compensated) {
+std::string describe_deskew(const ScanToMapOdometryOptions& options,
+                            const sensors::LidarProfile& profile, bool motion_compensated) {
   if (!options.deskew) return "off by configuration";
   if (motion_compensated) return "off: the recording is motion-compensated";
   if (profile.time_source == sensors::TimeSource::kNone) return "off: point times are unknown";
@@ -26,7 +26,7 @@ std::string describe_deskew(const OdometryOptions& options, const sensors::Lidar
 
 }  // namespace
 
-void bind(config::Binder& b, OdometryOptions& o) {
+void bind(config::Binder& b, ScanToMapOdometryOptions& o) {
   using config::Range;
   b.flag("deskew", o.deskew, "undo the motion within a sweep, unless the recording did");
   b.group("features", "curvature and classes", [&](config::Binder& g) { bind(g, o.features); });
@@ -42,15 +42,15 @@ void bind(config::Binder& b, OdometryOptions& o) {
   b.group("start", "search for the initial speed", [&](config::Binder& g) { bind(g, o.start); });
 }
 
-LidarOdometry::LidarOdometry(const OdometryOptions& options, const sensors::LidarProfile& profile,
-                             bool motion_compensated)
+ScanToMapOdometry::ScanToMapOdometry(const ScanToMapOdometryOptions& options,
+                                     const sensors::LidarProfile& profile, bool motion_compensated)
     : options_(options),
       profile_(profile),
       deskew_note_(describe_deskew(options, profile, motion_compensated)),
       scan_to_map_(scan_to_map_options(options, deskew_note_ == "on")),
       map_(scan_to_map_) {}
 
-std::vector<Frame> LidarOdometry::process(const sensors::LidarScan& scan) {
+std::vector<Frame> ScanToMapOdometry::process(const sensors::LidarScan& scan) {
   Prepared prepared;
   Stopwatch watch;
   const ScanLines lines = organise(scan, profile_);
@@ -65,11 +65,19 @@ std::vector<Frame> LidarOdometry::process(const sensors::LidarScan& scan) {
   return enough ? begin() : std::vector<Frame>{};
 }
 
-std::vector<Frame> LidarOdometry::finish() {
+std::vector<Frame> ScanToMapOdometry::finish() {
   return begun_ || held_back_.empty() ? std::vector<Frame>{} : begin();
 }
 
-std::vector<Frame> LidarOdometry::begin() {
+CorrectedScan ScanToMapOdometry::used_scan(const sensors::LidarScan& scan,
+                                           const geometry::Twist& velocity,
+                                           bool with_classes) const {
+  const geometry::Twist motion = deskew_note_ == "on" ? velocity : geometry::Twist::Zero();
+  return with_classes ? corrected_and_classified(scan, profile_, motion, options_.features)
+                      : corrected(scan, profile_, motion);
+}
+
+std::vector<Frame> ScanToMapOdometry::begin() {
   begun_ = true;
   if (options_.start.scans >= 2 && held_back_.size() >= 2) {
     Stopwatch watch;
@@ -84,12 +92,12 @@ std::vector<Frame> LidarOdometry::begin() {
   return frames;
 }
 
-int LidarOdometry::steps_of_this_frame() const {
+int ScanToMapOdometry::steps_of_this_frame() const {
   return std::max(options_.registration_steps,
                   options_.first_registration_steps - static_cast<int>(frames_) + 1);
 }
 
-Frame LidarOdometry::advance(const ScanFeatures& features, const StageTimes& prepared) {
+Frame ScanToMapOdometry::advance(const ScanFeatures& features, const StageTimes& prepared) {
   Frame frame;
   frame.index = frames_;
   frame.stamp = features.stamp;

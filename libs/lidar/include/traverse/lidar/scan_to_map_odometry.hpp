@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "traverse/config/binder.hpp"
+#include "traverse/lidar/frame.hpp"
+#include "traverse/lidar/odometry.hpp"
+#include "traverse/lidar/scan_to_map.hpp"
+#include "traverse/lidar/speed_search.hpp"
+
+namespace traverse::lidar {
+
+struct ScanToMapOdometryOptions {
+  bool deskew =
+      true;  ///< undo the motion within a sweep, unless the recording did or gives no times
+  FeatureOptions features;
+  ThinningOptions thinning;
+  MapOptions map;
+  AssociationOptions association;
+  SolverOptions solver;
+  int registration_steps = 2;         ///< associations with a solve each, of a frame
+  int first_registration_steps = 12;  ///< of the second frame; one fewer each frame until the above
+  SpeedSearchOptions start;
+  int threads = 1;  ///< of association; the result does not depend on it
+};
+void bind(config::Binder& binder, ScanToMapOdometryOptions& options);
+
+/// Lidar odometry that registers each scan's edge and planar points in a local map: F-LOAM (Wang,
+/// Wang, Chen and Xie, "F-LOAM: Fast lidar odometry and mapping", IROS 2021) with its faults
+/// mended:
+///  * sectors cover every point; occluded and grazing points are rejected as in LOAM;
+///  * planes by principal components, lines guarded at zero distance;
+///  * the motion model knows the true time between scans, and the first speed is searched for;
+///  * degenerate directions keep their prediction;
+///  * deskew in two stages as published: by the predicted motion for registration, by the
+///    estimated motion for the map.
+class ScanToMapOdometry final : public Odometry {
+ public:
+  /// \param profile of the sensor  \param motion_compensated the scans need no deskew
+  ScanToMapOdometry(const ScanToMapOdometryOptions& options, const sensors::LidarProfile& profile,
+                    bool motion_compensated);
+
+  std::vector<Frame> process(const sensors::LidarScan& scan) override;
+  std::vector<Frame> finish() override;
+  const std::string& deskew_note() const override { return deskew_note_; }
+  CorrectedScan used_scan(const sensors::LidarScan& scan, const geometry::Twist& velocity,
+                          bool with_classes) const override;
+
+  const ScanToMap& map() const { return map_; }
+
+ private:
+  std::vector<Frame> begin();
+  Frame advance(const ScanFeatures& features, const StageTimes& prepared);
+  int steps_of_this_frame() const;
+
+  ScanToMapOdometryOptions options_;
+  sensors::LidarProfile profile_;
+  std::string deskew_note_;
+  ScanToMapOptions scan_to_map_;
+  ScanToMap map_;
+
+  struct Prepared {
+    ScanFeatures features;
+    StageTimes ms;
+  };
+  std::vector<Prepared> held_back_;
+  bool begun_ = false;
+
+  std::size_t frames_ = 0;
+  geometry::Stamp last_stamp_;
+  geometry::Pose3 T_map_last_;
+  geometry::Twist velocity_ = geometry::Twist::Zero();  // at the last frame
+};
+
+}  // namespace traverse::lidar
