@@ -4,9 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "traverse/lidar/scan_to_map_odometry.hpp"
+
 #include "geometry/random_motion.hpp"
 #include "lidar/simulated_drive.hpp"
-#include "traverse/lidar/scan_to_map_odometry.hpp"
 
 namespace traverse::pipeline {
 namespace {

@@ -16,7 +16,6 @@ struct RunReportOptions {
 /// \param templates folder with run.html, run.css
 /// \throws files::InputError if a file of the run is missing or damaged; files::OutputError
 void write_run_report(const std::filesystem::path& run_folder,
-                      const std::filesystem::path& templates,
-                      const RunReportOptions& options = {});
+                      const std::filesystem::path& templates, const RunReportOptions& options = {});
 
 }  // namespace traverse::report
