@@ -80,13 +80,13 @@ std::vector<FactorKind> factor_kinds() {
   std::vector<FactorKind> kinds;
   for (const Sweep sweep : {Sweep::kDeskewed, Sweep::kSwept}) {
     kinds.push_back(
-        kind<LineVectorResidual>(name_of(LineForm::kVector, sweep), "r = u x (q - c)", sweep));
+        kind<LineVectorResidual>(name_of(LineForm::kVector, sweep), "r = u × (q − c)", sweep));
     kinds.push_back(kind<LineDistanceResidual>(name_of(LineForm::kDistance, sweep),
-                                               "r = |u x (q - c)|", sweep));
+                                               "r = |u × (q − c)|", sweep));
     kinds.push_back(
-        kind<PlaneResidual>(name_of(PlaneForm::kSigned, sweep), "r = n . q + d", sweep));
+        kind<PlaneResidual>(name_of(PlaneForm::kSigned, sweep), "r = n · q + d", sweep));
     kinds.push_back(kind<PlaneDistanceResidual>(name_of(PlaneForm::kAbsolute, sweep),
-                                                "r = |n . q + d|", sweep));
+                                                "r = |n · q + d|", sweep));
   }
   return kinds;
 }

@@ -20,15 +20,18 @@ using lidar::Spread;
 using optimization::JacobianAudit;
 
 HtmlTable jacobians_table(const JacobianAudit& audit) {
-  HtmlTable table({"factor", "perturbation", "block", "largest entry", "to automatic: absolute",
-                   "relative", "to differences: absolute", "relative", ""});
+  HtmlTable table({"factor", "residual", "perturbation", "block", "largest entry",
+                   "to automatic: absolute", "relative", "to differences: absolute", "relative",
+                   ""});
   for (const optimization::FactorAudit& factor : audit.factors) {
+    bool first = true;
     for (const optimization::BlockAudit& block : factor.blocks) {
-      table.add_row({fmt::format("{}: {}", factor.factor, factor.formula),
-                     std::string(name_of(factor.perturbation)), block.block, block.largest_entry,
-                     block.automatic.absolute, block.automatic.relative, block.numeric.absolute,
-                     block.numeric.relative, block.passed ? "pass" : "FAIL"},
-                    !block.passed);
+      table.add_row(
+          {factor.factor, first ? factor.formula : "", std::string(name_of(factor.perturbation)),
+           block.block, block.largest_entry, block.automatic.absolute, block.automatic.relative,
+           block.numeric.absolute, block.numeric.relative, block.passed ? "pass" : "FAIL"},
+          !block.passed);
+      first = false;
     }
   }
   return table;
@@ -41,10 +44,10 @@ void add_jacobians(const JacobianAudit& audit, TemplateData& page) {
   page.set("jacobians_word", audit.passed() ? "Pass:" : "Fail:");
   page.set("jacobians_text",
            audit.passed()
-               ? fmt::format("every analytic Jacobian is within {} of automatic derivatives and {} "
-                             "of differences.",
-                             short_number(options.automatic_tolerance),
-                             short_number(options.numeric_tolerance))
+               ? fmt::format(
+                     "every analytic Jacobian is within {:.0e} of automatic derivatives and {:.0e} "
+                     "of differences.",
+                     options.automatic_tolerance, options.numeric_tolerance)
                : std::string("a Jacobian is wrong (marked): the solver does not find the minimum "
                              "of what it says it minimises."));
   page.set("jacobians_how",
@@ -72,13 +75,13 @@ std::vector<std::span<const Cost>> by_case(const std::vector<Cost>& costs) {
   return cases;
 }
 
-double half_spread(const Spread& spread) {
-  return (spread.upper_quartile - spread.lower_quartile) / 2;
-}
-
+/// The median and half of what lies between the quartiles, with the decimals of the median.
 Cell spread_cell(const Spread& spread) {
   Cell cell(spread.median);
-  cell.text += " ± " + short_number(half_spread(spread));
+  const std::size_t point = cell.text.find('.');
+  const std::size_t decimals = point == std::string::npos ? 0 : cell.text.size() - point - 1;
+  cell.text +=
+      fmt::format(" ± {:.{}f}", (spread.upper_quartile - spread.lower_quartile) / 2, decimals);
   return cell;
 }
 
@@ -104,7 +107,7 @@ HtmlTable solves_table(const FactorBench& bench) {
         {fmt::format("{}", fmt::join(costs[0].factors, " + ")), spread_cell(costs[0].milliseconds),
          spread_cell(costs[1].milliseconds), spread_cell(costs[2].milliseconds),
          costs[1].milliseconds.median / analytic, costs[2].milliseconds.median / analytic,
-         fmt::format("{} / {} / {}", costs[0].iterations, costs[1].iterations, costs[2].iterations),
+         fmt::format("{}/{}/{}", costs[0].iterations, costs[1].iterations, costs[2].iterations),
          std::max(costs[1].from_analytic_m, costs[2].from_analytic_m),
          radians * 180 / std::numbers::pi});
   }
