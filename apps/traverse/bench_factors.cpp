@@ -104,7 +104,8 @@ std::string solves_text(const FactorBench& bench) {
 
 void print(const FactorBench& bench) {
   fmt::print(
-      "{}, frame {}: {} line and {} plane matches, {} repeats, one thread\n\nA residual with its "
+      "{}, frame {}: {} line and {} plane matches, {} repeats, CPU time of one thread\n\nA "
+      "residual with its "
       "Jacobians, nanoseconds\n{}",
       bench.recording, bench.frame, bench.lines, bench.planes, bench.repeats,
       evaluations_text(bench));

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <functional>
+#include <ctime>
 
 #include "traverse/geometry/so3.hpp"
 #include "traverse/lidar/factor_kinds.hpp"
@@ -19,10 +18,18 @@ using optimization::Derivative;
 constexpr std::array kDerivatives{Derivative::kAnalytic, Derivative::kAutomatic,
                                   Derivative::kNumeric};
 
-double seconds_of(const std::function<void()>& work) {
-  const auto begin = std::chrono::steady_clock::now();
+/// Seconds that this thread has been working, without those in which the machine did other things.
+double thread_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+template <typename Work>
+double seconds_of(const Work& work) {
+  const double begin = thread_seconds();
   work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return thread_seconds() - begin;
 }
 
 Spread spread_of(std::vector<double> values) {

@@ -121,13 +121,15 @@ void add_bench(const FactorBench& bench, TemplateData& page) {
   page.set("bench_text",
            "Analytic, automatic (dual numbers) and numeric (central differences) derivatives on "
            "the same correspondences. They lead to the same pose; what differs is the time.");
-  page.set("bench_how",
-           fmt::format("{}, frame {}: {} line and {} plane matches, {} repeats in turn, one "
-                       "thread; medians ± half "
-                       "of what lies between the quartiles. Swept points have each seen their part "
-                       "of the sweep's motion.",
-                       bench.recording, bench.frame, count_text(bench.lines),
-                       count_text(bench.planes), bench.repeats));
+  page.set(
+      "bench_how",
+      fmt::format(
+          "{}, frame {}: {} line and {} plane matches, {} repeats in turn, CPU time of one thread; "
+          "medians ± half "
+          "of what lies between the quartiles. Swept points have each seen their part "
+          "of the sweep's motion.",
+          bench.recording, bench.frame, count_text(bench.lines), count_text(bench.planes),
+          bench.repeats));
 }
 
 }  // namespace

@@ -45,7 +45,8 @@ struct FactorBench {
   std::vector<SolveCost> solves;
 };
 
-/// Measures analytic, automatic and numeric derivatives on the same correspondences, one thread.
+/// Measures analytic, automatic and numeric derivatives on the same correspondences, in processor
+/// time of this thread.
 /// In each repeat every derivative has its turn, so that what disturbs the machine disturbs all.
 /// \param solver loss, iterations and thresholds of the solves; its forms and derivative are varied
 FactorBench measure_factors(const FrameCorrespondences& frame, const SolverOptions& solver,
