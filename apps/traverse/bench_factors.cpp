@@ -31,9 +31,9 @@ constexpr const char* kFooter = R"(Examples:
   traverse run DRIVE -o RUN --bench-factors            the same as a part of RUN's report
   traverse bench-factors DRIVE --json RUN/factor_bench.json && traverse report RUN
 
-Every derivative works on the same correspondences, in turn, in each of the repeats; shown are medians ±
-half of what lies between the quartiles. "swept" points have each seen their part of the sweep's motion, Exp(s Log R) p + s t,
-as in LOAM's scan-to-scan stage.)";
+Every derivative works on the same correspondences, in turn, in each of the repeats; shown are medians
+± half of what lies between the quartiles. "swept" points have each seen their part of the sweep's
+motion, Exp(s Log R) p + s t, as in LOAM's scan-to-scan stage. docs/mathematics.md derives both.)";
 
 struct Arguments {
   RecordingOptions recording;
@@ -133,7 +133,11 @@ void add_bench_factors(CLI::App& app) {
       "bench-factors", "measure analytic, automatic and numeric derivatives on one frame");
   const auto arguments = std::make_shared<Arguments>();
   add_recording_options(*command, arguments->recording);
-  command->get_option("RECORDING")->required(false);
+  command->get_option("RECORDING")
+      ->required(false)
+      ->description(
+          "KITTI folder, folder of PCD or PLY files, or MRPT rawlog; without one a "
+          "simulated street");
   command
       ->add_option("--frame", arguments->frame,
                    "counted from 0; up to ten frames before it are followed to it")
