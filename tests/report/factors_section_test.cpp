@@ -16,7 +16,7 @@ std::string rendered(const RunData& run) {
   add_factors(run, page);
   kainjow::mustache::mustache text(
       "{{#has_factors}}has factors{{/has_factors}} {{jacobians_kind}} {{jacobians_text}} "
-      "{{jacobians_how}}\n"
+      "{{jacobians_how}} {{jacobians_formulas}}\n"
       "{{#jacobians_table}}{{#rows}}{{#cells}}{{{text}}};{{/cells}}\n{{/rows}}{{/jacobians_table}}"
       "{{{bench_how}}}\n"
       "{{#evaluations_table}}{{#rows}}{{#cells}}{{{text}}};{{/cells}}\n{{/rows}}"
@@ -40,8 +40,9 @@ TEST(FactorsSection, ShowsTheDifferencesAndWhetherTheyPass) {
   run.jacobians = made_audit(true);
   EXPECT_THAT(rendered(run),
               AllOf(HasSubstr("has factors good every analytic Jacobian is within 1e-09 of"),
-                    HasSubstr("200 random"), HasSubstr("at least 0.500 from zero residual"),
-                    HasSubstr("line vector;r = u x (q - c);right;rotation;27.0;1.00e-14;1.00e-15;"
+                    HasSubstr("200 random"), HasSubstr("line vector: r = u x (q - c)"),
+                    HasSubstr("at least 0.500 from zero residual"),
+                    HasSubstr("line vector;right;rotation;27.0;1.00e-14;1.00e-15;"
                               "1.00e-10;2.00e-11;pass;")));
   run.jacobians = made_audit(false);
   EXPECT_THAT(rendered(run), AllOf(HasSubstr("fail a Jacobian is wrong"), HasSubstr("FAIL;"),
