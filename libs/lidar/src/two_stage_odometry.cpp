@@ -52,8 +52,8 @@ void bind(config::Binder& b, TwoStageOdometryOptions& o) {
   b.group("association", "features to lines and planes of the map",
           [&](config::Binder& g) { bind(g, o.association); });
   b.group("solver", "the pose, in both stages", [&](config::Binder& g) { bind(g, o.solver); });
-  b.integer("registration_steps", o.registration_steps, Range::between(1, 100),
-            "associations in the map, with a solve each");
+  b.integer("registration_steps", o.registration_steps, Range::between(0, 100),
+            "associations in the map, with a solve each; 0: scan-to-scan odometry alone");
   b.group("imu", "prediction of rotations", [&](config::Binder& g) { bind(g, o.imu); });
   b.group("start", "search for the initial speed", [&](config::Binder& g) { bind(g, o.start); });
 }

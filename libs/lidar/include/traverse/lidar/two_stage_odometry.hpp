@@ -23,7 +23,8 @@ struct TwoStageOdometryOptions {
   MapOptions map;
   AssociationOptions association;  ///< of the second stage
   SolverOptions solver;            ///< of both
-  int registration_steps = 2;      ///< associations in the map, with a solve each
+  int registration_steps = 2;      ///< associations in the map, with a solve each; 0: the first
+                                   ///< stage alone
   ImuOptions imu;
   SpeedSearchOptions start;
   int threads = 1;  ///< of association; the result does not depend on it
