@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "traverse/geometry/so3.hpp"
 #include "traverse/lidar/deskew.hpp"
+#include "traverse/lidar/point_motion.hpp"
 
 #include "parallel_chunks.hpp"
 #include "stopwatch.hpp"
@@ -22,15 +22,12 @@ template <typename Match, typename FindShape, typename Assign>
 std::vector<Match> match_points(const TimedPoints& points, const geometry::Pose3& T_last_current,
                                 const SweepClock& clock, int threads, const FindShape& find_shape,
                                 const Assign& assign) {
-  const Eigen::Vector3d turn = geometry::log_so3(T_last_current.rotation);
   std::vector<std::optional<Match>> matches(points.size());
   for_each_chunk(points.size(), kChunk, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const double s = clock.fraction(points.time[i]);
       const Eigen::Vector3d p_lidar = points.point(i);
-      const Eigen::Vector3d p_last =
-          geometry::exp_so3(s * turn) * p_lidar + s * T_last_current.translation;
-      const auto shape = find_shape(p_last);
+      const auto shape = find_shape(part_of(T_last_current, s) * p_lidar);
       if (!shape) continue;
       Match match;
       match.feature = static_cast<std::uint32_t>(i);
