@@ -94,6 +94,10 @@ void bind(config::Binder& b, ScanToScanOptions& o) {
            "between the two points of one scan line that help to make a plane");
   b.number("least_triangle_sine", o.least_triangle_sine, Range::between(0, 1),
            "three points whose sides meet at a smaller angle do not make a plane");
+  b.number("huber_m", o.huber_m, Range::positive(),
+           "residuals beyond count linearly, in place of solver.huber_m");
+  b.number("least_eigenvalue", o.least_eigenvalue, Range::between(0, 1),
+           "directions below are degenerate and keep their prediction, in place of the solver's");
 }
 
 Matches associate_scans(const TimedPoints& sharp, const TimedPoints& flat,
@@ -114,7 +118,10 @@ Matches associate_scans(const TimedPoints& sharp, const TimedPoints& flat,
 
 ScanToScan::ScanToScan(const ScanToScanOptions& options, const SolverOptions& solver, bool deskew,
                        int threads)
-    : options_(options), solver_(solver), deskew_(deskew), threads_(threads) {}
+    : options_(options), solver_(solver), deskew_(deskew), threads_(threads) {
+  solver_.huber_m = options.huber_m;
+  solver_.least_eigenvalue = options.least_eigenvalue;
+}
 
 ScanMotion ScanToScan::follow(const SweepFeatures& sweep,
                               const geometry::Pose3& guess_T_last_current, double interval_s,
