@@ -141,8 +141,8 @@ struct TwoSweeps {
     solver.line_form = LineForm::kVector;
     ScanToScan stage(options, solver, true, threads);
     stage.remember(sweeps[0], velocity(), ms);
-    return stage.follow(sweeps[1], geometry::exp_se3(0.1 * guess_velocity), 0.1, guess_velocity,
-                        ms);
+    return stage.follow(sweeps[1],
+                        {0.1, geometry::exp_se3(0.1 * guess_velocity), guess_velocity, false}, ms);
   }
 
   double error(const ScanMotion& motion) const {
@@ -166,7 +166,7 @@ ScanToScanOptions with(SweepMotion sweep_motion) {
 
 TEST(ScanToScan, FindsTheMotionBetweenTwoScans) {
   TwoSweeps street(swerving());
-  for (const SweepMotion sweep_motion : {SweepMotion::kPredicted, SweepMotion::kEstimated}) {
+  for (const SweepMotion sweep_motion : {SweepMotion::kDeskew, SweepMotion::kEachPoint}) {
     const ScanMotion motion = street.follow(with(sweep_motion), street.velocity());
     EXPECT_TRUE(motion.health.registered);
     EXPECT_EQ(motion.health.steps, 2);
@@ -177,28 +177,44 @@ TEST(ScanToScan, FindsTheMotionBetweenTwoScans) {
   }
 }
 
-TEST(ScanToScan, EachPointsShareOfTheMotionNeedsNoGoodPrediction) {
-  // Deskewed by a prediction that is 3 m/s and 0.3 rad/s wrong, the sweep is bent; moved by its
-  // share of the motion that is estimated, it is not.
+TEST(ScanToScan, UndoingTheSweepsMotionNeedsNoGoodPrediction) {
   TwoSweeps street(swerving());
   geometry::Twist wrong = street.velocity();
-  wrong[2] += 0.3;
-  wrong[3] -= 3;
-  const double estimated = street.error(street.follow(with(SweepMotion::kEstimated), wrong));
-  const double predicted = street.error(street.follow(with(SweepMotion::kPredicted), wrong));
-  EXPECT_LT(estimated, 0.03);
-  EXPECT_GT(predicted, 2 * estimated);
+  wrong[2] += 0.3;  // rad/s
+  wrong[3] -= 3;    // m/s: 15 cm over half a sweep
+  ScanToScanOptions options = with(SweepMotion::kEachPoint);
+  EXPECT_LT(street.error(street.follow(options, wrong)), 0.03);
+  options.sweep_motion = SweepMotion::kDeskew;
+  options.steps = 1;  // so that only the prediction deskews
+  EXPECT_GT(street.error(street.follow(options, wrong)), 0.06);
+  options.steps = 4;  // each with a better deskew
+  EXPECT_LT(street.error(street.follow(options, wrong)), 0.03);
 }
 
 TEST(ScanToScan, IsTheSameForAnyNumberOfThreads) {
   TwoSweeps street(swerving());
-  for (const SweepMotion sweep_motion : {SweepMotion::kPredicted, SweepMotion::kEstimated}) {
+  for (const SweepMotion sweep_motion : {SweepMotion::kDeskew, SweepMotion::kEachPoint}) {
     const auto one = street.follow(with(sweep_motion), street.velocity());
     for (const int threads : {2, 4}) {
       const auto many = street.follow(with(sweep_motion), street.velocity(), threads);
       EXPECT_EQ(one.T_last_current.matrix(), many.T_last_current.matrix()) << threads;
     }
   }
+}
+
+TEST(MotionPrediction, AMeasuredTurnIsKeptAndAnUnknownIntervalKeepsAll) {
+  MotionPrediction prediction;
+  prediction.velocity << 0, 0, 0.5, 10, 0, 0;
+  geometry::Pose3 found;
+  found.translation = {1.2, 0, 0};
+  EXPECT_EQ(prediction.velocity_given(found), prediction.velocity);
+  prediction.interval_s = 0.1;
+  geometry::Twist expected;
+  expected << 0, 0, 0, 12, 0, 0;
+  EXPECT_LT((prediction.velocity_given(found) - expected).norm(), 1e-9);
+  prediction.turn_is_measured = true;
+  expected[2] = 0.5;
+  EXPECT_LT((prediction.velocity_given(found) - expected).norm(), 1e-9);
 }
 
 TEST(ScanToScan, WithNoFeaturesOrThreeTheGuessStands) {
@@ -209,7 +225,7 @@ TEST(ScanToScan, WithNoFeaturesOrThreeTheGuessStands) {
     for (std::size_t i = 0; i < count; ++i) {
       street.sweeps[1].flat.push_back(flat.x[i], flat.y[i], flat.z[i], flat.time[i]);
     }
-    const ScanMotion motion = street.follow(with(SweepMotion::kEstimated), street.velocity());
+    const ScanMotion motion = street.follow(with(SweepMotion::kEachPoint), street.velocity());
     EXPECT_FALSE(motion.health.registered);
     EXPECT_EQ(motion.health.observability.degenerate, 6);
     EXPECT_LE(motion.health.plane_matches, count);
@@ -221,7 +237,7 @@ TEST(ScanToScan, BeforeAnyScanIsRememberedTheGuessStands) {
   TwoSweeps street(swerving());
   const ScanToScan stage({}, {}, true, 1);
   const auto motion =
-      stage.follow(street.sweeps[1], street.truth, 0.1, street.velocity(), street.ms);
+      stage.follow(street.sweeps[1], {0.1, street.truth, street.velocity(), false}, street.ms);
   EXPECT_FALSE(motion.health.registered);
   EXPECT_EQ(motion.T_last_current.matrix(), street.truth.matrix());
 }

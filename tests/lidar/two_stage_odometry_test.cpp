@@ -19,7 +19,7 @@ TwoStageOdometryOptions preset(SweepMotion sweep_motion) {
   TwoStageOdometryOptions options;
   options.solver.line_form = LineForm::kVector;
   options.odometry.sweep_motion = sweep_motion;
-  options.imu.use = sweep_motion == SweepMotion::kPredicted;
+  options.imu.use = sweep_motion == SweepMotion::kDeskew;
   options.start.slowest_mps = options.start.fastest_mps = 12;
   return options;
 }
@@ -90,9 +90,9 @@ class TwoStage : public ::testing::TestWithParam<SweepMotion> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Presets, TwoStage,
-                         ::testing::Values(SweepMotion::kEstimated, SweepMotion::kPredicted),
+                         ::testing::Values(SweepMotion::kEachPoint, SweepMotion::kDeskew),
                          [](const auto& param_info) {
-                           return param_info.param == SweepMotion::kEstimated ? "aloam" : "loam";
+                           return param_info.param == SweepMotion::kEachPoint ? "aloam" : "loam";
                          });
 
 TEST_P(TwoStage, FollowsADriveThatStartsAtSpeed) {
@@ -245,7 +245,7 @@ TEST_P(TwoStage, SaysWhyItDoesNotDeskew) {
 TEST(TwoStageOdometry, TheGyroCarriesARotationThatConstantVelocityCannotKnow) {
   SimulatedDrive drive(simulation::street(60, 1), 16, swerving());
   for (const std::size_t blind : {8U, 9U, 10U}) drive.scans[blind] = cut(drive.scans[blind], 0);
-  const TwoStageOdometryOptions loam = preset(SweepMotion::kPredicted);
+  const TwoStageOdometryOptions loam = preset(SweepMotion::kDeskew);
   const auto gyro = testing::simulated_gyro(drive.drive, -0.1, 1.6);
   const double without = rotation_error(run(drive, loam)[10], drive);
   const double with_gyro = rotation_error(run(drive, loam, gyro)[10], drive);
@@ -256,7 +256,7 @@ TEST(TwoStageOdometry, TheGyroCarriesARotationThatConstantVelocityCannotKnow) {
 TEST(TwoStageOdometry, AnImuThatStopsIsMissedNotFollowed) {
   const SimulatedDrive drive(simulation::street(60, 1), 16, swerving());
   const auto gyro = testing::simulated_gyro(drive.drive, -0.1, 0.5);
-  EXPECT_LT(worst_position_error(run(drive, preset(SweepMotion::kPredicted), gyro), drive), 0.1);
+  EXPECT_LT(worst_position_error(run(drive, preset(SweepMotion::kDeskew), gyro), drive), 0.1);
 }
 
 }  // namespace

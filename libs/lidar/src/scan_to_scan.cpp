@@ -79,10 +79,10 @@ std::optional<Plane> plane_near(const Eigen::Vector3d& p_last, const LineIndex& 
 void bind(config::Binder& b, ScanToScanOptions& o) {
   using config::Range;
   static constexpr std::array<std::pair<std::string_view, SweepMotion>, 2> kSweepMotions{
-      {{"estimated", SweepMotion::kEstimated}, {"predicted", SweepMotion::kPredicted}}};
+      {{"each_point", SweepMotion::kEachPoint}, {"deskew", SweepMotion::kDeskew}}};
   b.choice("sweep_motion", o.sweep_motion, kSweepMotions,
-           "what undoes the motion within a sweep: each point's share of the motion that is "
-           "estimated, or the prediction");
+           "each_point: the solver moves each point by its share of the motion it looks for; "
+           "deskew: before each association, by the motion known by then");
   b.integer("steps", o.steps, Range::between(1, 100), "associations, with a solve each");
   b.number("search_radius_m", o.search_radius_m, Range::positive(),
            "partners in the last scan are nearer than this");
@@ -123,20 +123,30 @@ ScanToScan::ScanToScan(const ScanToScanOptions& options, const SolverOptions& so
   solver_.least_eigenvalue = options.least_eigenvalue;
 }
 
-ScanMotion ScanToScan::follow(const SweepFeatures& sweep,
-                              const geometry::Pose3& guess_T_last_current, double interval_s,
-                              const geometry::Twist& velocity, StageTimes& ms) const {
-  Stopwatch watch;
-  const bool estimated =
-      deskew_ && options_.sweep_motion == SweepMotion::kEstimated && interval_s > 0;
-  const bool deskew_now = deskew_ && !estimated;
-  const TimedPoints sharp = deskew_now ? deskewed(sweep.sharp, velocity) : sweep.sharp;
-  const TimedPoints flat = deskew_now ? deskewed(sweep.flat, velocity) : sweep.flat;
-  const SweepClock clock{estimated ? interval_s : 0};
-  watch.lap(ms.deskew);
+geometry::Twist MotionPrediction::velocity_given(const geometry::Pose3& found) const {
+  if (interval_s == 0) return velocity;
+  geometry::Twist twist = geometry::log_se3(found) / interval_s;
+  if (turn_is_measured) twist.head<3>() = velocity.head<3>();
+  return twist;
+}
 
-  ScanMotion motion{guess_T_last_current, {}};
+ScanMotion ScanToScan::follow(const SweepFeatures& sweep, const MotionPrediction& prediction,
+                              StageTimes& ms) const {
+  Stopwatch watch;
+  const bool each_point =
+      deskew_ && options_.sweep_motion == SweepMotion::kEachPoint && prediction.interval_s > 0;
+  const SweepClock clock{each_point ? prediction.interval_s : 0};
+  TimedPoints sharp = sweep.sharp;
+  TimedPoints flat = sweep.flat;
+  ScanMotion motion{prediction.T_last_current, {}};
   for (int step = 0; step < options_.steps; ++step) {
+    if (deskew_ && !each_point) {
+      const geometry::Twist velocity =
+          step == 0 ? prediction.velocity : prediction.velocity_given(motion.T_last_current);
+      sharp = deskewed(sweep.sharp, velocity);
+      flat = deskewed(sweep.flat, velocity);
+    }
+    watch.lap(ms.deskew);
     const Matches matches = associate_scans(sharp, flat, last_edges_, last_planar_,
                                             motion.T_last_current, clock, options_, threads_);
     watch.lap(ms.associate);
@@ -151,7 +161,7 @@ ScanMotion ScanToScan::follow(const SweepFeatures& sweep,
     motion.health.inlier_share = solved.inlier_share;
     motion.health.registered = solved.usable;
     if (!solved.usable) {
-      motion.T_last_current = guess_T_last_current;
+      motion.T_last_current = prediction.T_last_current;
       break;
     }
     motion.T_last_current = solved.T_map_lidar;

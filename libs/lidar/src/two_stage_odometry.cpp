@@ -136,8 +136,8 @@ geometry::Twist TwoStageOdometry::initial_velocity(StageTimes& ms) const {
   return velocity;
 }
 
-TwoStageOdometry::Prediction TwoStageOdometry::predict(geometry::Stamp stamp) const {
-  Prediction prediction;
+MotionPrediction TwoStageOdometry::predict(geometry::Stamp stamp) const {
+  MotionPrediction prediction;
   const double interval_s = sensors::scan_interval(last_stamp_, stamp, profile_);
   if (interval_s >= kLeastInterval * profile_.sweep_s) prediction.interval_s = interval_s;
   geometry::Twist step = prediction.interval_s * velocity_;
@@ -166,30 +166,25 @@ Frame TwoStageOdometry::advance(const Prepared& scan) {
   RegistrationHealth odometry;
 
   if (frames_ > 0) {
-    const Prediction prediction = predict(frame.stamp);
-    const ScanMotion motion =
-        scan_to_scan_.follow(scan.sweep, prediction.T_last_current, prediction.interval_s,
-                             prediction.velocity, frame.ms);
+    const MotionPrediction prediction = predict(frame.stamp);
+    const ScanMotion motion = scan_to_scan_.follow(scan.sweep, prediction, frame.ms);
     odometry = motion.health;
     T_odom_lidar_ = (T_odom_lidar_ * motion.T_last_current).orthonormalised();
-
-    // The motion within the sweep, as it is known by now; the gyro knows its turn better.
-    frame.velocity = prediction.velocity;
-    const auto take_motion = [&](const geometry::Pose3& T_last_current) {
-      if (prediction.interval_s == 0) return;
-      velocity_ = geometry::log_se3(T_last_current) / prediction.interval_s;
-      frame.velocity.tail<3>() = velocity_.tail<3>();
-      if (!prediction.turn_is_measured) frame.velocity.head<3>() = velocity_.head<3>();
-    };
-    if (odometry.registered) take_motion(motion.T_last_current);
+    frame.velocity = odometry.registered ? prediction.velocity_given(motion.T_last_current)
+                                         : prediction.velocity;
 
     const Registration refined = map_.align(scan.features, T_map_odom_ * T_odom_lidar_,
                                             frame.velocity, options_.registration_steps, frame.ms);
     frame.T_map_lidar = refined.T_map_lidar.orthonormalised();
     frame.health = refined.health;
+    const geometry::Pose3 T_last_current = T_map_last_.inverse() * frame.T_map_lidar;
     if (refined.health.registered) {
       T_map_odom_ = frame.T_map_lidar * T_odom_lidar_.inverse();
-      take_motion(T_map_last_.inverse() * frame.T_map_lidar);
+      frame.velocity = prediction.velocity_given(T_last_current);
+    }
+    const bool moved = refined.health.registered || odometry.registered;
+    if (moved && prediction.interval_s > 0) {
+      velocity_ = geometry::log_se3(T_last_current) / prediction.interval_s;
     }
   }
   // A pose that is only predicted does not shape the map, unless there is no map yet.

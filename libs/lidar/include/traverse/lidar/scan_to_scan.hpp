@@ -13,12 +13,12 @@ namespace traverse::lidar {
 /// How the motion within the sweep that is being registered is undone. (The last sweep is deskewed
 /// by its estimated motion, which is known by then.)
 enum class SweepMotion {
-  kEstimated,  ///< by the motion that is estimated: each point moves by its share s of it (A-LOAM)
-  kPredicted,  ///< by the predicted motion, once
+  kEachPoint,  ///< the solver moves each point by its share s of the motion it looks for (A-LOAM)
+  kDeskew,     ///< before each association, by the motion known by then: first the prediction
 };
 
 struct ScanToScanOptions {
-  SweepMotion sweep_motion = SweepMotion::kEstimated;
+  SweepMotion sweep_motion = SweepMotion::kEachPoint;
   int steps = 2;                     ///< associations, with a solve each
   double search_radius_m = 5;        ///< a partner in the last scan is nearer than this
   int adjacent_lines = 2;            ///< how many lines away an adjacent scan line may be
@@ -56,6 +56,17 @@ Matches associate_scans(const TimedPoints& sharp, const TimedPoints& flat,
                         const geometry::Pose3& T_last_current, const SweepClock& clock,
                         const ScanToScanOptions& options, int threads);
 
+/// What is known of a scan's motion before it is registered.
+struct MotionPrediction {
+  double interval_s = 0;           ///< since the last scan; 0 if the stamps do not tell
+  geometry::Pose3 T_last_current;  ///< between the stamps
+  geometry::Twist velocity = geometry::Twist::Zero();  ///< a second, within the sweep, lidar frame
+  bool turn_is_measured = false;                       ///< its rotation is an IMU's
+
+  /// The velocity within the sweep when the motion between the stamps is found to be this.
+  geometry::Twist velocity_given(const geometry::Pose3& T_last_current) const;
+};
+
 /// The motion from the last scan to the current one.
 struct ScanMotion {
   geometry::Pose3 T_last_current;  ///< between the stamps
@@ -70,10 +81,8 @@ class ScanToScan {
              int threads);
 
   /// Registers the sweep in the remembered one.
-  /// \param interval_s between the two stamps; 0 if they tell nothing
-  /// \param velocity predicted body twist a second within the sweep, lidar frame
-  ScanMotion follow(const SweepFeatures& sweep, const geometry::Pose3& guess_T_last_current,
-                    double interval_s, const geometry::Twist& velocity, StageTimes& ms) const;
+  ScanMotion follow(const SweepFeatures& sweep, const MotionPrediction& prediction,
+                    StageTimes& ms) const;
 
   /// Makes the sweep the last one. \param velocity estimated body twist a second within it
   void remember(const SweepFeatures& sweep, const geometry::Twist& velocity, StageTimes& ms);

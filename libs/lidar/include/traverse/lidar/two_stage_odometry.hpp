@@ -74,18 +74,10 @@ class TwoStageOdometry final : public Odometry {
     StageTimes ms;
   };
 
-  /// What is known of a scan's motion before it is registered.
-  struct Prediction {
-    double interval_s = 0;  ///< since the last scan; 0 if the stamps do not tell
-    geometry::Pose3 T_last_current;
-    geometry::Twist velocity;  ///< within the sweep
-    bool turn_is_measured = false;
-  };
-
   std::vector<Frame> begin();
   geometry::Twist initial_velocity(StageTimes& ms) const;
   Frame advance(const Prepared& scan);
-  Prediction predict(geometry::Stamp stamp) const;
+  MotionPrediction predict(geometry::Stamp stamp) const;
 
   TwoStageOdometryOptions options_;
   sensors::LidarProfile profile_;
