@@ -166,7 +166,7 @@ ScanToScanOptions with(SweepMotion sweep_motion) {
 
 TEST(ScanToScan, FindsTheMotionBetweenTwoScans) {
   TwoSweeps street(swerving());
-  for (const SweepMotion sweep_motion : {SweepMotion::kDeskew, SweepMotion::kEachPoint}) {
+  for (const SweepMotion sweep_motion : {SweepMotion::kDeskew, SweepMotion::kPerPoint}) {
     const ScanMotion motion = street.follow(with(sweep_motion), street.velocity());
     EXPECT_TRUE(motion.health.registered);
     EXPECT_EQ(motion.health.steps, 2);
@@ -182,7 +182,7 @@ TEST(ScanToScan, UndoingTheSweepsMotionNeedsNoGoodPrediction) {
   geometry::Twist wrong = street.velocity();
   wrong[2] += 0.3;  // rad/s
   wrong[3] -= 3;    // m/s: 15 cm over half a sweep
-  ScanToScanOptions options = with(SweepMotion::kEachPoint);
+  ScanToScanOptions options = with(SweepMotion::kPerPoint);
   EXPECT_LT(street.error(street.follow(options, wrong)), 0.03);
   options.sweep_motion = SweepMotion::kDeskew;
   options.steps = 1;  // so that only the prediction deskews
@@ -193,7 +193,7 @@ TEST(ScanToScan, UndoingTheSweepsMotionNeedsNoGoodPrediction) {
 
 TEST(ScanToScan, IsTheSameForAnyNumberOfThreads) {
   TwoSweeps street(swerving());
-  for (const SweepMotion sweep_motion : {SweepMotion::kDeskew, SweepMotion::kEachPoint}) {
+  for (const SweepMotion sweep_motion : {SweepMotion::kDeskew, SweepMotion::kPerPoint}) {
     const auto one = street.follow(with(sweep_motion), street.velocity());
     for (const int threads : {2, 4}) {
       const auto many = street.follow(with(sweep_motion), street.velocity(), threads);
@@ -225,7 +225,7 @@ TEST(ScanToScan, WithNoFeaturesOrThreeTheGuessStands) {
     for (std::size_t i = 0; i < count; ++i) {
       street.sweeps[1].flat.push_back(flat.x[i], flat.y[i], flat.z[i], flat.time[i]);
     }
-    const ScanMotion motion = street.follow(with(SweepMotion::kEachPoint), street.velocity());
+    const ScanMotion motion = street.follow(with(SweepMotion::kPerPoint), street.velocity());
     EXPECT_FALSE(motion.health.registered);
     EXPECT_EQ(motion.health.observability.degenerate, 6);
     EXPECT_LE(motion.health.plane_matches, count);

@@ -90,9 +90,9 @@ class TwoStage : public ::testing::TestWithParam<SweepMotion> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Presets, TwoStage,
-                         ::testing::Values(SweepMotion::kEachPoint, SweepMotion::kDeskew),
+                         ::testing::Values(SweepMotion::kPerPoint, SweepMotion::kDeskew),
                          [](const auto& param_info) {
-                           return param_info.param == SweepMotion::kEachPoint ? "aloam" : "loam";
+                           return param_info.param == SweepMotion::kPerPoint ? "aloam" : "loam";
                          });
 
 TEST_P(TwoStage, FollowsADriveThatStartsAtSpeed) {

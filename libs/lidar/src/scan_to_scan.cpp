@@ -79,9 +79,9 @@ std::optional<Plane> plane_near(const Eigen::Vector3d& p_last, const LineIndex& 
 void bind(config::Binder& b, ScanToScanOptions& o) {
   using config::Range;
   static constexpr std::array<std::pair<std::string_view, SweepMotion>, 2> kSweepMotions{
-      {{"each_point", SweepMotion::kEachPoint}, {"deskew", SweepMotion::kDeskew}}};
+      {{"per_point", SweepMotion::kPerPoint}, {"deskew", SweepMotion::kDeskew}}};
   b.choice("sweep_motion", o.sweep_motion, kSweepMotions,
-           "each_point: the solver moves each point by its share of the motion it looks for; "
+           "per_point: the solver moves each point by its share of the motion it looks for; "
            "deskew: before each association, by the motion known by then");
   b.integer("steps", o.steps, Range::between(1, 100), "associations, with a solve each");
   b.number("search_radius_m", o.search_radius_m, Range::positive(),
@@ -133,14 +133,14 @@ geometry::Twist MotionPrediction::velocity_given(const geometry::Pose3& found) c
 ScanMotion ScanToScan::follow(const SweepFeatures& sweep, const MotionPrediction& prediction,
                               StageTimes& ms) const {
   Stopwatch watch;
-  const bool each_point =
-      deskew_ && options_.sweep_motion == SweepMotion::kEachPoint && prediction.interval_s > 0;
-  const SweepClock clock{each_point ? prediction.interval_s : 0};
+  const bool per_point =
+      deskew_ && options_.sweep_motion == SweepMotion::kPerPoint && prediction.interval_s > 0;
+  const SweepClock clock{per_point ? prediction.interval_s : 0};
   TimedPoints sharp = sweep.sharp;
   TimedPoints flat = sweep.flat;
   ScanMotion motion{prediction.T_last_current, {}};
   for (int step = 0; step < options_.steps; ++step) {
-    if (deskew_ && !each_point) {
+    if (deskew_ && !per_point) {
       const geometry::Twist velocity =
           step == 0 ? prediction.velocity : prediction.velocity_given(motion.T_last_current);
       sharp = deskewed(sweep.sharp, velocity);

@@ -13,12 +13,12 @@ namespace traverse::lidar {
 /// How the motion within the sweep that is being registered is undone. (The last sweep is deskewed
 /// by its estimated motion, which is known by then.)
 enum class SweepMotion {
-  kEachPoint,  ///< the solver moves each point by its share s of the motion it looks for (A-LOAM)
-  kDeskew,     ///< before each association, by the motion known by then: first the prediction
+  kPerPoint,  ///< the solver moves each point by its share s of the motion it looks for (A-LOAM)
+  kDeskew,    ///< before each association, by the motion known by then: first the prediction
 };
 
 struct ScanToScanOptions {
-  SweepMotion sweep_motion = SweepMotion::kEachPoint;
+  SweepMotion sweep_motion = SweepMotion::kPerPoint;
   int steps = 2;                     ///< associations, with a solve each
   double search_radius_m = 5;        ///< a partner in the last scan is nearer than this
   int adjacent_lines = 2;            ///< how many lines away an adjacent scan line may be
