@@ -98,6 +98,19 @@ TEST_F(StreetOdometry, AScanWithoutFeaturesKeepsThePredictionAndSaysSo) {
   EXPECT_LT(worst_position_error(frames, drive), 0.15);
 }
 
+TEST_F(StreetOdometry, EqualStampsGiveAFrameAndLeaveTheSpeed) {
+  for (const std::size_t at : {1U, 9U}) {  // within the start, and after it
+    SimulatedDrive drive = street();
+    drive.scans.resize(14);
+    drive.scans.insert(drive.scans.begin() + static_cast<std::ptrdiff_t>(at), drive.scans[at]);
+    drive.truth.insert(drive.truth.begin() + static_cast<std::ptrdiff_t>(at), drive.truth[at]);
+    const auto frames = run(drive, quick_start());
+    ASSERT_EQ(frames.size(), drive.scans.size());
+    EXPECT_EQ(frames[at + 1].velocity, frames[at].velocity);
+    EXPECT_LT(worst_position_error(frames, drive), 0.1);
+  }
+}
+
 TEST_F(StreetOdometry, NotANumberPointsAreCountedNotUsed) {
   SimulatedDrive drive = street();
   for (auto& scan : drive.scans) {

@@ -118,7 +118,7 @@ Frame ScanToMapOdometry::advance(const ScanFeatures& features, const StageTimes&
         map_.align(features, predicted, velocity_, steps_of_this_frame(), frame.ms);
     frame.T_map_lidar = registration.T_map_lidar.orthonormalised();
     frame.health = registration.health;
-    if (registration.health.registered) {
+    if (registration.health.registered && dt > 0) {
       velocity_ = geometry::log_se3(T_map_last_.inverse() * frame.T_map_lidar) / dt;
     }
   }

@@ -46,7 +46,7 @@ Hypothesis follow(std::span<const ScanFeatures> scans, geometry::Twist velocity,
     const double dt = sensors::scan_interval(scans[i - 1].stamp, scans[i].stamp, profile);
     const geometry::Pose3 guess = previous * geometry::exp_se3(dt * velocity);
     const Registration registration = map.align(scans[i], guess, velocity, steps, ignored);
-    velocity = geometry::log_se3(previous.inverse() * registration.T_map_lidar) / dt;
+    if (dt > 0) velocity = geometry::log_se3(previous.inverse() * registration.T_map_lidar) / dt;
     if (i == 1) result.velocity = velocity;
     result.support += speaking_matches(registration, scan_to_map.solver.huber_m);
     map.insert(scans[i], registration.T_map_lidar, velocity, ignored);

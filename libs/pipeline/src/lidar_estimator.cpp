@@ -86,21 +86,17 @@ geometry::Twist moved_to_body(const geometry::Twist& velocity_sensor,
 LidarEstimator::LidarEstimator(const MakeOdometry& make, const dataset::RecordingInfo& recording)
     : sensor_(first_lidar(recording)),
       odometry_(make(*sensor_.lidar, recording.motion_compensated)) {
+  for_each_value(lidar::Frame{},
+                 [&](std::string_view name, double) { columns_.emplace_back(name); });
+  const auto& further = odometry_->further_columns();
+  columns_.insert(columns_.end(), further.begin(), further.end());
   if (const auto* imu = recording.rig.first(sensors::SensorKind::kImu)) {
     imu_ = imu->label;
     T_lidar_imu_ = sensor_.T_body_sensor.inverse() * imu->T_body_sensor;
   }
 }
 
-const std::vector<std::string>& LidarEstimator::columns() const {
-  static const std::vector<std::string> kColumns = [] {
-    std::vector<std::string> names;
-    for_each_value(lidar::Frame{},
-                   [&](std::string_view name, double) { names.emplace_back(name); });
-    return names;
-  }();
-  return kColumns;
-}
+const std::vector<std::string>& LidarEstimator::columns() const { return columns_; }
 
 std::vector<PoseFrame> LidarEstimator::process(const sensors::Measurement& measurement) {
   if (const auto* imu = std::get_if<sensors::ImuSample>(&measurement)) {
@@ -131,6 +127,7 @@ std::vector<PoseFrame> LidarEstimator::to_body(const std::vector<lidar::Frame>& 
     pose.velocity = moved_to_body(frame.velocity, sensor_.T_body_sensor);
     pose.milliseconds = frame.ms.total();
     for_each_value(frame, [&](std::string_view, double value) { pose.record.push_back(value); });
+    pose.record.insert(pose.record.end(), frame.further.begin(), frame.further.end());
     result.push_back(std::move(pose));
   }
   return result;

@@ -38,6 +38,7 @@ class LidarEstimator final : public Estimator {
   geometry::Pose3 T_lidar_imu_;
   std::string imu_;  ///< label of the first IMU of the rig; empty: none
   std::unique_ptr<lidar::Odometry> odometry_;
+  std::vector<std::string> columns_;
 };
 
 }  // namespace traverse::pipeline

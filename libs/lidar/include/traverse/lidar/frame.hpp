@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "traverse/geometry/pose3.hpp"
 #include "traverse/geometry/stamp.hpp"
@@ -48,6 +49,7 @@ struct Frame {
   std::array<std::size_t, kFeatureClasses> class_counts{};
   std::size_t map_points = 0;
   RegistrationHealth health;
+  std::vector<double> further;  ///< one for each of Odometry::further_columns()
   StageTimes ms;
 };
 

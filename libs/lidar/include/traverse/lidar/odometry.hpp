@@ -31,6 +31,13 @@ class Odometry {
   /// after it. Odometry that uses no IMU ignores it.
   virtual void observe(const sensors::ImuSample& /*sample_lidar*/) {}
 
+  /// Names of the values in Frame::further: what this algorithm tells of a frame beyond what all
+  /// do.
+  virtual const std::vector<std::string>& further_columns() const {
+    static const std::vector<std::string> kNone;
+    return kNone;
+  }
+
   /// Whether scans are deskewed ("on"), and, if not, why.
   virtual const std::string& deskew_note() const = 0;
 

@@ -1,0 +1,206 @@
+#include "traverse/lidar/two_stage_odometry.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "traverse/sensors/sweep_timing.hpp"
+
+#include "stopwatch.hpp"
+
+namespace traverse::lidar {
+
+namespace {
+
+constexpr double kLeastInterval = 0.1;  // sweeps; stamps nearer than that tell no speed
+
+ScanToMapOptions scan_to_map_options(const TwoStageOdometryOptions& options, bool deskew) {
+  return {options.map, options.association, options.solver, deskew, options.threads};
+}
+
+std::string describe_deskew(const TwoStageOdometryOptions& options,
+                            const sensors::LidarProfile& profile, bool motion_compensated) {
+  if (!options.deskew) return "off by configuration";
+  if (motion_compensated) return "off: the recording is motion-compensated";
+  if (profile.time_source == sensors::TimeSource::kNone) return "off: point times are unknown";
+  return "on";
+}
+
+/// The health of the first stage, in the order of further_columns().
+std::vector<double> record_of(const RegistrationHealth& odometry) {
+  return {odometry.registered ? 1.0 : 0.0,
+          static_cast<double>(odometry.line_matches),
+          static_cast<double>(odometry.plane_matches),
+          odometry.residual_rms_m,
+          odometry.inlier_share,
+          static_cast<double>(odometry.iterations),
+          static_cast<double>(odometry.observability.degenerate),
+          odometry.observability.eigenvalues[0]};
+}
+
+}  // namespace
+
+void bind(config::Binder& b, TwoStageOdometryOptions& o) {
+  using config::Range;
+  b.flag("deskew", o.deskew, "undo the motion within a sweep, unless the recording did");
+  b.group("features", "curvature and classes", [&](config::Binder& g) { bind(g, o.features); });
+  b.group("odometry", "from scan to scan, the first stage",
+          [&](config::Binder& g) { bind(g, o.odometry); });
+  b.group("thinning", "the registration set of the second stage",
+          [&](config::Binder& g) { bind(g, o.thinning); });
+  b.group("map", "the local map of the second stage", [&](config::Binder& g) { bind(g, o.map); });
+  b.group("association", "features to lines and planes of the map",
+          [&](config::Binder& g) { bind(g, o.association); });
+  b.group("solver", "the pose, in both stages", [&](config::Binder& g) { bind(g, o.solver); });
+  b.integer("registration_steps", o.registration_steps, Range::between(0, 100),
+            "associations in the map, with a solve each; 0: scan-to-scan odometry alone");
+  b.group("imu", "prediction of rotations", [&](config::Binder& g) { bind(g, o.imu); });
+  b.group("start", "search for the initial speed", [&](config::Binder& g) { bind(g, o.start); });
+}
+
+TwoStageOdometry::TwoStageOdometry(const TwoStageOdometryOptions& options,
+                                   const sensors::LidarProfile& profile, bool motion_compensated)
+    : options_(options),
+      profile_(profile),
+      deskew_note_(describe_deskew(options, profile, motion_compensated)),
+      scan_to_map_(scan_to_map_options(options, deskew_note_ == "on")),
+      scan_to_scan_(options.odometry, options.solver, deskew_note_ == "on", options.threads),
+      map_(scan_to_map_),
+      imu_(options.imu) {}
+
+std::vector<Frame> TwoStageOdometry::process(const sensors::LidarScan& scan) {
+  Prepared prepared;
+  Stopwatch watch;
+  const ScanLines lines = organise(scan, profile_);
+  watch.lap(prepared.ms.organise);
+  const Features features = extract_features(lines, options_.features);
+  prepared.features = collect_features(scan, profile_, lines, features, options_.thinning);
+  prepared.sweep = collect_sweep(scan, profile_, lines, features, options_.odometry.planar_voxel_m);
+  watch.lap(prepared.ms.features);
+
+  if (begun_) return {advance(prepared)};
+  held_back_.push_back(std::move(prepared));
+  const bool enough = static_cast<int>(held_back_.size()) >= std::max(1, options_.start.scans);
+  return enough ? begin() : std::vector<Frame>{};
+}
+
+std::vector<Frame> TwoStageOdometry::finish() {
+  return begun_ || held_back_.empty() ? std::vector<Frame>{} : begin();
+}
+
+void TwoStageOdometry::observe(const sensors::ImuSample& sample_lidar) {
+  imu_.observe(sample_lidar);
+}
+
+CorrectedScan TwoStageOdometry::used_scan(const sensors::LidarScan& scan,
+                                          const geometry::Twist& velocity,
+                                          bool with_classes) const {
+  const geometry::Twist motion = deskew_note_ == "on" ? velocity : geometry::Twist::Zero();
+  return with_classes ? corrected_and_classified(scan, profile_, motion, options_.features)
+                      : corrected(scan, profile_, motion);
+}
+
+const std::vector<std::string>& TwoStageOdometry::further_columns() const {
+  static const std::vector<std::string> kColumns{"odometry_registered",
+                                                 "odometry_line_matches",
+                                                 "odometry_plane_matches",
+                                                 "odometry_residual_rms_m",
+                                                 "odometry_inlier_share",
+                                                 "odometry_solver_iterations",
+                                                 "odometry_degenerate_directions",
+                                                 "odometry_eigenvalue_1"};
+  return kColumns;
+}
+
+std::vector<Frame> TwoStageOdometry::begin() {
+  begun_ = true;
+  velocity_ = initial_velocity(held_back_.front().ms);
+  std::vector<Frame> frames;
+  for (const Prepared& held : held_back_) frames.push_back(advance(held));
+  held_back_.clear();
+  return frames;
+}
+
+geometry::Twist TwoStageOdometry::initial_velocity(StageTimes& ms) const {
+  Stopwatch watch;
+  std::vector<ScanFeatures> scans;
+  for (const Prepared& held : held_back_) {
+    const bool later = scans.empty() || held.features.stamp > scans.back().stamp;
+    if (later) scans.push_back(held.features);
+  }
+  geometry::Twist velocity = geometry::Twist::Zero();
+  if (options_.start.scans >= 2 && scans.size() >= 2) {
+    velocity = find_initial_velocity(scans, profile_, scan_to_map_, options_.start);
+  }
+  watch.lap(ms.start);
+  return velocity;
+}
+
+MotionPrediction TwoStageOdometry::predict(geometry::Stamp stamp) const {
+  MotionPrediction prediction;
+  const double interval_s = sensors::scan_interval(last_stamp_, stamp, profile_);
+  if (interval_s >= kLeastInterval * profile_.sweep_s) prediction.interval_s = interval_s;
+  geometry::Twist step = prediction.interval_s * velocity_;
+  prediction.velocity = velocity_;
+  if (const auto turn = imu_.rotation(last_stamp_, stamp)) step.head<3>() = *turn;
+  const geometry::Stamp sweep_begin =
+      geometry::shifted(stamp, -profile_.stamp_fraction * profile_.sweep_s);
+  const geometry::Stamp sweep_end = geometry::shifted(sweep_begin, profile_.sweep_s);
+  if (const auto turn = imu_.rotation(sweep_begin, sweep_end)) {
+    prediction.velocity.head<3>() = *turn / profile_.sweep_s;
+    prediction.turn_is_measured = true;
+  }
+  prediction.T_last_current = geometry::exp_se3(step);
+  return prediction;
+}
+
+Frame TwoStageOdometry::advance(const Prepared& scan) {
+  Frame frame;
+  frame.index = frames_;
+  frame.stamp = scan.features.stamp;
+  frame.points = scan.features.points;
+  frame.dropped = scan.features.dropped;
+  frame.class_counts = scan.features.class_counts;
+  frame.ms = scan.ms;
+  frame.velocity = velocity_;
+  RegistrationHealth odometry;
+
+  if (frames_ > 0) {
+    const MotionPrediction prediction = predict(frame.stamp);
+    const ScanMotion motion = scan_to_scan_.follow(scan.sweep, prediction, frame.ms);
+    odometry = motion.health;
+    T_odom_lidar_ = (T_odom_lidar_ * motion.T_last_current).orthonormalised();
+    frame.velocity = odometry.registered ? prediction.velocity_given(motion.T_last_current)
+                                         : prediction.velocity;
+
+    const Registration refined = map_.align(scan.features, T_map_odom_ * T_odom_lidar_,
+                                            frame.velocity, options_.registration_steps, frame.ms);
+    frame.T_map_lidar = refined.T_map_lidar.orthonormalised();
+    frame.health = refined.health;
+    const geometry::Pose3 T_last_current = T_map_last_.inverse() * frame.T_map_lidar;
+    if (refined.health.registered) {
+      T_map_odom_ = frame.T_map_lidar * T_odom_lidar_.inverse();
+      frame.velocity = prediction.velocity_given(T_last_current);
+    }
+    const bool moved = refined.health.registered || odometry.registered;
+    if (moved && prediction.interval_s > 0) {
+      velocity_ = geometry::log_se3(T_last_current) / prediction.interval_s;
+    }
+  }
+  // A pose that is only predicted does not shape the map, unless there is no map yet.
+  const bool map_is_empty = map_.size() < static_cast<std::size_t>(options_.solver.least_matches);
+  if (frame.health.registered || odometry.registered || map_is_empty) {
+    map_.insert(scan.features, frame.T_map_lidar, frame.velocity, frame.ms);
+  }
+  scan_to_scan_.remember(scan.sweep, frame.velocity, frame.ms);
+  frame.map_points = map_.size();
+  frame.further = record_of(odometry);
+
+  T_map_last_ = frame.T_map_lidar;
+  last_stamp_ = frame.stamp;
+  imu_.forget_before(geometry::shifted(last_stamp_, -profile_.sweep_s));
+  ++frames_;
+  return frame;
+}
+
+}  // namespace traverse::lidar
