@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 
 #include "check_jacobians.hpp"
-#include "optimization/broken_factor.hpp"
 #include "exit_status.hpp"
+#include "optimization/broken_factor.hpp"
 
 int main(int argc, char** argv) {
   using traverse::optimization::Perturbation;
