@@ -1,5 +1,6 @@
 #include "traverse/lidar/scan_to_map_odometry.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -34,8 +35,10 @@ ScanToMapOdometryOptions quick_start() {
 double worst_position_error(const std::vector<Frame>& frames, const SimulatedDrive& drive) {
   double worst = 0;
   for (const Frame& frame : frames) {
-    worst = std::max(worst,
-                     (frame.T_map_lidar.translation - drive.truth[frame.index].translation).norm());
+    const double error =
+        (frame.T_map_lidar.translation - drive.truth[frame.index].translation).norm();
+    if (!std::isfinite(error)) return error;  // std::max would pass over it
+    worst = std::max(worst, error);
   }
   return worst;
 }

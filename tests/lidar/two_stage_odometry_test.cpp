@@ -1,5 +1,6 @@
 #include "traverse/lidar/two_stage_odometry.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -48,7 +49,11 @@ double rotation_error(const Frame& frame, const SimulatedDrive& drive) {
 
 double worst_position_error(const std::vector<Frame>& frames, const SimulatedDrive& drive) {
   double worst = 0;
-  for (const Frame& frame : frames) worst = std::max(worst, position_error(frame, drive));
+  for (const Frame& frame : frames) {
+    const double error = position_error(frame, drive);
+    if (!std::isfinite(error)) return error;  // std::max would pass over it
+    worst = std::max(worst, error);
+  }
   return worst;
 }
 
