@@ -40,7 +40,7 @@ Observability observability(const Matches& matches, const geometry::Pose3& T_map
     result.degenerate = 6;
     return result;
   }
-  result.rotation_scale_m = median_range(matches);
+  const double rotation_scale_m = median_range(matches);
   const Eigen::Matrix3d R_lidar_map = T_map_lidar.rotation.transpose();
 
   // A unit normal n of the map sees the body twist as [p x n, n] in body axes. A line is seen
@@ -49,7 +49,7 @@ Observability observability(const Matches& matches, const geometry::Pose3& T_map
   const auto add = [&](const Eigen::Vector3d& p, const Eigen::Vector3d& n_map) {
     const Eigen::Vector3d n = R_lidar_map * n_map;
     Vector6 row;
-    row << p.cross(n) / result.rotation_scale_m, n;
+    row << p.cross(n) / rotation_scale_m, n;
     information.selfadjointView<Eigen::Lower>().rankUpdate(row);
   };
   for (const auto& match : matches.planes) add(match.p_lidar, match.plane.normal);
@@ -58,8 +58,15 @@ Observability observability(const Matches& matches, const geometry::Pose3& T_map
     add(match.p_lidar, e);
     add(match.p_lidar, match.line.direction.cross(e));
   }
+  information = Matrix6(information.selfadjointView<Eigen::Lower>());
   information /= static_cast<double>(matches.size());
+  return observability(information, rotation_scale_m, least_eigenvalue);
+}
 
+Observability observability(const Matrix6& information, double rotation_scale_m,
+                            double least_eigenvalue) {
+  Observability result;
+  result.rotation_scale_m = rotation_scale_m;
   const Eigen::SelfAdjointEigenSolver<Matrix6> solver(information);
   result.eigenvalues = solver.eigenvalues();
   result.directions = solver.eigenvectors();
