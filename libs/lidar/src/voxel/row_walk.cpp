@@ -1,5 +1,6 @@
 #include "traverse/lidar/voxel/row_walk.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -8,6 +9,7 @@ namespace traverse::lidar::voxel {
 namespace {
 
 constexpr std::size_t kReach = 5;  // neighbours on each side of a surface point
+constexpr float kLead = 1;         // steps, of two points, that a receding surface is led on
 
 float to_float(double value) { return static_cast<float>(value); }
 
@@ -154,14 +156,21 @@ void sample_edges(const Row& row, const std::vector<std::uint8_t>& breaks,
   const float* y = row.y;
   const float* z = row.z;
   const float* range = row.range;
-  const auto push = [&](std::size_t i) {
-    samples.edges.push_back(x[i], y[i], z[i], range[i], row.source_of(i));
+  // The surface ends somewhere between its last point and the next beam: half a step on, on the
+  // average. Without it an edge would creep outward as the sensor comes nearer and steps shrink.
+  const auto push_end = [&](std::size_t end, std::size_t inner) {
+    constexpr float kHalfStep = 0.25F;  // of two steps
+    samples.edges.push_back(
+        x[end] + kHalfStep * (x[end] - x[inner]), y[end] + kHalfStep * (y[end] - y[inner]),
+        z[end] + kHalfStep * (z[end] - z[inner]), range[end], row.source_of(end));
   };
   for_each_surface(row, breaks, [&](std::size_t first, std::size_t last) {
     if (first == 0 || last + 1 == row.size) return;
     if (range[first] >= most || range[first] < nearest) return;
-    const bool left = (breaks[first - 1] & kSeam) == 0 && range[first - 1] > range[first] + jump;
-    const bool right = (breaks[last] & kSeam) == 0 && range[last + 1] > range[last] + jump;
+    const bool left_open = (breaks[first - 1] & kSeam) == 0;
+    const bool right_open = (breaks[last] & kSeam) == 0;
+    const bool left = left_open && range[first - 1] > range[first] + jump;
+    const bool right = right_open && range[last + 1] > range[last] + jump;
     const std::size_t count = last - first + 1;
     const float dx = x[last] - x[first];
     const float dy = y[last] - y[first];
@@ -182,8 +191,13 @@ void sample_edges(const Row& row, const std::vector<std::uint8_t>& breaks,
       return;
     }
     if (count < 3) return;
-    if (left) push(first);
-    if (right) push(last);
+    // A wall seen at a grazing angle recedes in steps that are breaks of their own: its last point
+    // before them is no end, and would travel with the sensor.
+    const auto led_to = [&](std::size_t end, std::size_t inner) {
+      return range[end] + std::max(0.0F, kLead * (range[end] - range[inner]));
+    };
+    if (left && range[first - 1] > led_to(first, first + 2) + jump) push_end(first, first + 2);
+    if (right && range[last + 1] > led_to(last, last - 2) + jump) push_end(last, last - 2);
   });
 }
 

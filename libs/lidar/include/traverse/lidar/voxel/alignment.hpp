@@ -15,7 +15,7 @@ struct AlignmentOptions {
   double converged_m = 0.001;  ///< a round that moves the pose by less than both is the last
   double converged_deg = 0.003;
   int least_matches = 50;          ///< with fewer the prediction stands
-  double least_eigenvalue = 0.02;  ///< smaller: the direction is degenerate (Observability)
+  double least_eigenvalue = 0.001; ///< smaller: the direction is degenerate (Observability)
   MatchOptions matches;
   ObjectiveOptions objective;
 };
