@@ -73,9 +73,8 @@ void LineMap::refit(std::uint32_t index) {
   }
 }
 
-bool LineMap::find(const CellGrid& at, float x, float y, float z, Answer& answer) const {
-  const std::int32_t c[3] = {at.cell(x, 0), at.cell(y, 1), at.cell(z, 2)};
-  const std::uint32_t key = cell_key(c[0] + at.base[0], c[1] + at.base[1], c[2] + at.base[2]);
+bool LineMap::find(const CellGrid& at, const RelativeCell& c, Answer& answer) const {
+  const std::uint32_t key = cell_key(c.x + at.base[0], c.y + at.base[1], c.z + at.base[2]);
   const std::size_t mask = table_.size() - 1;
   std::size_t i = spread(key) >> (32U - bits_);
   while (table_[i] != kFree && static_cast<std::uint32_t>(table_[i] >> 32U) != key) {
@@ -84,7 +83,7 @@ bool LineMap::find(const CellGrid& at, float x, float y, float z, Answer& answer
   if (table_[i] == kFree) return false;
   const LineCell& cell = lines_[static_cast<std::uint32_t>(table_[i])];
   if (!cell.is_line) return false;
-  const Eigen::Vector3f centre(at.centre(c[0], 0), at.centre(c[1], 1), at.centre(c[2], 2));
+  const Eigen::Vector3f centre(at.centre(c.x, 0), at.centre(c.y, 1), at.centre(c.z, 2));
   const FittedLine& line = cell.line;
   for (int k = 0; k < 3; ++k) {
     answer.n1[k] = line.normal_1[k];

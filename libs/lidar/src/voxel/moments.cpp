@@ -8,32 +8,6 @@
 
 namespace traverse::lidar::voxel {
 
-void Moments::add(const Moments& other) {
-  n += other.n;
-  x += other.x;
-  y += other.y;
-  z += other.z;
-  xx += other.xx;
-  xy += other.xy;
-  xz += other.xz;
-  yy += other.yy;
-  yz += other.yz;
-  zz += other.zz;
-}
-
-void Moments::add_shifted(const Moments& o, float dx, float dy, float dz) {
-  n += o.n;
-  xx += o.xx + 2 * dx * o.x + o.n * dx * dx;
-  xy += o.xy + dx * o.y + dy * o.x + o.n * dx * dy;
-  xz += o.xz + dx * o.z + dz * o.x + o.n * dx * dz;
-  yy += o.yy + 2 * dy * o.y + o.n * dy * dy;
-  yz += o.yz + dy * o.z + dz * o.y + o.n * dy * dz;
-  zz += o.zz + 2 * dz * o.z + o.n * dz * dz;
-  x += o.x + o.n * dx;
-  y += o.y + o.n * dy;
-  z += o.z + o.n * dz;
-}
-
 void Moments::forget_half() {
   for (float* value : {&n, &x, &y, &z, &xx, &xy, &xz, &yy, &yz, &zz}) *value *= 0.5F;
 }

@@ -54,9 +54,13 @@ PlaneMap::PlaneMap(const PlaneMapOptions& options) : options_(options) {
   }
 }
 
-std::uint32_t PlaneMap::Level::find(std::uint32_t key) const {
+inline std::size_t PlaneMap::Level::home(std::uint32_t key) const {
+  return spread(key) >> (32U - bits);
+}
+
+inline std::uint32_t PlaneMap::Level::find(std::uint32_t key) const {
   const std::size_t mask = table.size() - 1;
-  for (std::size_t i = spread(key) >> (32U - bits);; i = (i + 1) & mask) {
+  for (std::size_t i = home(key);; i = (i + 1) & mask) {
     const std::uint64_t entry = table[i];
     if (entry == kFree) return kNone;
     if (static_cast<std::uint32_t>(entry >> 32U) == key) return static_cast<std::uint32_t>(entry);
@@ -65,7 +69,7 @@ std::uint32_t PlaneMap::Level::find(std::uint32_t key) const {
 
 std::uint32_t PlaneMap::Level::find_or_add(std::uint32_t key, const CellNumber& number) {
   const std::size_t mask = table.size() - 1;
-  std::size_t i = spread(key) >> (32U - bits);
+  std::size_t i = home(key);
   for (; table[i] != kFree; i = (i + 1) & mask) {
     if (static_cast<std::uint32_t>(table[i] >> 32U) == key) {
       return static_cast<std::uint32_t>(table[i]);
@@ -86,7 +90,7 @@ void PlaneMap::Level::rebuild_table() {
   const std::size_t mask = table.size() - 1;
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     const std::uint32_t key = cell_key(numbers[k].x, numbers[k].y, numbers[k].z);
-    std::size_t i = spread(key) >> (32U - bits);
+    std::size_t i = home(key);
     while (table[i] != kFree) i = (i + 1) & mask;
     table[i] = std::uint64_t{key} << 32U | k;
   }
@@ -103,9 +107,7 @@ void PlaneMap::insert(const LocalPoints& points, Workers& workers) {
     Shard& shard = shards_[s];
     shard.touched_fine.clear();
     shard.touched_coarse.clear();
-    for (const auto& runs : runs_) {
-      for (const Run& run : runs[s]) insert_run(shard, run);
-    }
+    for (const auto& runs : runs_) insert_runs(shard, runs[s]);
     for (const std::uint32_t cell : shard.touched_fine) refit(shard.fine, cell, options_.cell_m);
     for (const std::uint32_t cell : shard.touched_coarse) {
       refit(shard.coarse, cell, kParent * options_.cell_m);
@@ -143,33 +145,55 @@ void PlaneMap::collect_runs(const LocalPoints& points, std::size_t begin, std::s
   end_run();
 }
 
-void PlaneMap::insert_run(Shard& shard, const Run& run) const {
-  const CellNumber& c = run.number;
+std::uint32_t PlaneMap::fine_cell(Shard& shard, const CellNumber& c) const {
   const std::size_t known = shard.fine.cold.size();
   const std::uint32_t fine = shard.fine.find_or_add(cell_key(c.x, c.y, c.z), c);
   if (fine == known) {
     const CellNumber p{parent_of(c.x), parent_of(c.y), parent_of(c.z)};
     shard.fine.planes[fine].parent = shard.coarse.find_or_add(cell_key(p.x, p.y, p.z), p);
   }
-  const std::uint32_t coarse = shard.fine.planes[fine].parent;
-  ColdCell& cell = shard.fine.cold[fine];
-  cell.moments.add(run.moments);
-  if (cell.touched != inserts_) {
-    cell.touched = inserts_;
-    shard.touched_fine.push_back(fine);
-  }
+  return fine;
+}
 
-  // From the middle fine cell of the parent, in whole cells.
-  const CellNumber& p = shard.coarse.numbers[coarse];
+void PlaneMap::insert_runs(Shard& shard, const std::vector<Run>& runs) const {
+  // In two passes, each fetching ahead what it will touch.
+  constexpr std::size_t kAhead = 8;
+  shard.cells.resize(runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (i + kAhead < runs.size()) {
+      const CellNumber& c = runs[i + kAhead].number;
+      __builtin_prefetch(&shard.fine.table[shard.fine.home(cell_key(c.x, c.y, c.z))]);
+    }
+    shard.cells[i] = fine_cell(shard, runs[i].number);
+  }
   const auto cell_m = static_cast<float>(options_.cell_m);
-  const auto offset = [&](std::int32_t cell_number, std::int32_t parent_number) {
-    return static_cast<float>(cell_number - kParent * parent_number - 1) * cell_m;
+  const auto touch = [&](ColdCell& cell, std::uint32_t index, std::vector<std::uint32_t>& touched) {
+    if (cell.touched == inserts_) return;
+    cell.touched = inserts_;
+    touched.push_back(index);
   };
-  ColdCell& parent = shard.coarse.cold[coarse];
-  parent.moments.add_shifted(run.moments, offset(c.x, p.x), offset(c.y, p.y), offset(c.z, p.z));
-  if (parent.touched != inserts_) {
-    parent.touched = inserts_;
-    shard.touched_coarse.push_back(coarse);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (i + kAhead < runs.size()) {
+      const std::uint32_t ahead = shard.cells[i + kAhead];
+      __builtin_prefetch(&shard.fine.cold[ahead], 1);
+      __builtin_prefetch(&shard.fine.planes[ahead]);
+    }
+    const std::uint32_t fine = shard.cells[i];
+    const std::uint32_t coarse = shard.fine.planes[fine].parent;
+    ColdCell& cell = shard.fine.cold[fine];
+    cell.moments.add(runs[i].moments);
+    touch(cell, fine, shard.touched_fine);
+
+    // From the middle fine cell of the parent, in whole cells.
+    const CellNumber& c = runs[i].number;
+    const CellNumber& p = shard.coarse.numbers[coarse];
+    const auto offset = [&](std::int32_t number, std::int32_t parent_number) {
+      return static_cast<float>(number - kParent * parent_number - 1) * cell_m;
+    };
+    ColdCell& parent = shard.coarse.cold[coarse];
+    parent.moments.add_shifted(runs[i].moments, offset(c.x, p.x), offset(c.y, p.y),
+                               offset(c.z, p.z));
+    touch(parent, coarse, shard.touched_coarse);
   }
 }
 
@@ -197,11 +221,10 @@ void PlaneMap::refit(Level& level, std::uint32_t index, double cell_m) const {
   }
 }
 
-bool PlaneMap::find(const CellGrid& at, float x, float y, float z, Answer& answer) const {
-  const std::int32_t relative[3] = {at.cell(x, 0), at.cell(y, 1), at.cell(z, 2)};
-  const std::int32_t cx = relative[0] + at.base[0];
-  const std::int32_t cy = relative[1] + at.base[1];
-  const std::int32_t cz = relative[2] + at.base[2];
+bool PlaneMap::find(const CellGrid& at, const RelativeCell& cell, Answer& answer) const {
+  const std::int32_t cx = cell.x + at.base[0];
+  const std::int32_t cy = cell.y + at.base[1];
+  const std::int32_t cz = cell.z + at.base[2];
   const std::int32_t px = parent_of(cx);
   const std::int32_t py = parent_of(cy);
   const std::int32_t pz = parent_of(cz);
@@ -215,7 +238,7 @@ bool PlaneMap::find(const CellGrid& at, float x, float y, float z, Answer& answe
   if (fine != kNone) {
     const PlaneCell& plane = shard.fine.planes[fine];
     if (plane.is_plane != 0) {
-      tell(plane, at.centre(relative[0], 0), at.centre(relative[1], 1), at.centre(relative[2], 2));
+      tell(plane, at.centre(cell.x, 0), at.centre(cell.y, 1), at.centre(cell.z, 2));
       return true;
     }
     coarse = plane.parent;
@@ -227,6 +250,14 @@ bool PlaneMap::find(const CellGrid& at, float x, float y, float z, Answer& answe
   tell(shard.coarse.planes[coarse], at.centre(kParent * px + 1 - at.base[0], 0),
        at.centre(kParent * py + 1 - at.base[1], 1), at.centre(kParent * pz + 1 - at.base[2], 2));
   return true;
+}
+
+void PlaneMap::prefetch(const CellGrid& at, const RelativeCell& cell) const {
+  const std::int32_t cx = cell.x + at.base[0];
+  const std::int32_t cy = cell.y + at.base[1];
+  const std::int32_t cz = cell.z + at.base[2];
+  const Shard& shard = shards_[shard_of(parent_of(cx), parent_of(cy), parent_of(cz))];
+  __builtin_prefetch(&shard.fine.table[shard.fine.home(cell_key(cx, cy, cz))]);
 }
 
 void PlaneMap::keep_near(const Eigen::Vector3d& centre_map, double radius_m, Workers& workers) {

@@ -10,6 +10,7 @@ namespace traverse::lidar::voxel {
 
 namespace {
 
+constexpr std::size_t kAhead = 12;   // points, of fetching
 constexpr std::size_t kChunk = 512;  // points
 constexpr float kHorizontal = 0.8F;  // |normal_z| above: ground or ceiling
 
@@ -39,6 +40,18 @@ void set_point(PlaneRows& rows, std::size_t row, const SweepPoints& points, std:
   rows.y[row] = points.y[i];
   rows.z[row] = points.z[i];
   rows.time[row] = points.time[i];
+}
+
+/// The answer for the point's cell, asked for only when the cell is another than last time.
+template <typename Map, typename Answer>
+const Answer* ask(const Map& map, const CellGrid& grid, const RelativeCell& cell,
+                  ScanMatches::Remembered<Answer>& remembered) {
+  if (!remembered.asked || !(remembered.cell == cell)) {
+    remembered.cell = cell;
+    remembered.asked = true;
+    remembered.found = map.find(grid, cell, remembered.answer);
+  }
+  return remembered.found ? &remembered.answer : nullptr;
 }
 
 /// 1.4826 times the median of |residual| over its standard deviation, to 1/32 of one.
@@ -71,6 +84,11 @@ void PlaneRows::resize(std::size_t rows) {
   for (auto* values : {&x, &y, &z, &time, &nx, &ny, &nz, &d, &weight}) values->resize(rows);
 }
 
+void ScanMatches::forget() {
+  plane_answers.clear();
+  line_answers.clear();
+}
+
 void associate(const SweepSample& sample, const LocalPoints& planar, const LocalPoints& edges,
                const VoxelMap& map, double gate_m, const MatchOptions& options, Workers& workers,
                ScanMatches& matches) {
@@ -89,15 +107,24 @@ void associate(const SweepSample& sample, const LocalPoints& planar, const Local
   planes.resize(planar.size());
   matches.line_1.resize(edges.size());
   matches.line_2.resize(edges.size());
+  matches.plane_answers.resize(planar.size());
+  matches.line_answers.resize(edges.size());
   std::vector<float> normalised(planar.size());
 
   const auto match_planes = [&](std::size_t c) {
     const CellGrid grid = map.planes().grid(planar.origin_map);
     const std::size_t end = std::min(planar.size(), (c + 1) * kChunk);
     std::size_t row = c * kChunk;
-    PlaneMap::Answer plane{};
     for (std::size_t i = c * kChunk; i < end; ++i) {
-      if (!map.planes().find(grid, planar.x[i], planar.y[i], planar.z[i], plane)) continue;
+      if (i + kAhead < end && !matches.plane_answers[i + kAhead].asked) {
+        const std::size_t k = i + kAhead;
+        map.planes().prefetch(grid, grid.cell(planar.x[k], planar.y[k], planar.z[k]));
+      }
+      const PlaneMap::Answer* found =
+          ask(map.planes(), grid, grid.cell(planar.x[i], planar.y[i], planar.z[i]),
+              matches.plane_answers[i]);
+      if (found == nullptr) continue;
+      const PlaneMap::Answer& plane = *found;
       const float r =
           plane.nx * planar.x[i] + plane.ny * planar.y[i] + plane.nz * planar.z[i] + plane.d;
       if (!(std::abs(r) <= gate)) continue;
@@ -118,9 +145,12 @@ void associate(const SweepSample& sample, const LocalPoints& planar, const Local
     const CellGrid grid = map.lines().grid(edges.origin_map);
     const std::size_t end = std::min(edges.size(), (c + 1) * kChunk);
     std::size_t row = c * kChunk;
-    LineMap::Answer line{};
     for (std::size_t i = c * kChunk; i < end; ++i) {
-      if (!map.lines().find(grid, edges.x[i], edges.y[i], edges.z[i], line)) continue;
+      const LineMap::Answer* found =
+          ask(map.lines(), grid, grid.cell(edges.x[i], edges.y[i], edges.z[i]),
+              matches.line_answers[i]);
+      if (found == nullptr) continue;
+      const LineMap::Answer& line = *found;
       const auto distance = [&](const float* n, float d) {
         return n[0] * edges.x[i] + n[1] * edges.y[i] + n[2] * edges.z[i] + d;
       };

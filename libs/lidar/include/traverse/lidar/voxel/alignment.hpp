@@ -9,13 +9,13 @@ namespace traverse::lidar::voxel {
 
 struct AlignmentOptions {
   int rounds = 6;              ///< of association and solve at most
-  int iterations = 2;          ///< of Levenberg-Marquardt in a round
+  int iterations = 1;          ///< of Levenberg-Marquardt in a round
   double gate_m = 0.6;         ///< farther planes and lines do not match, in the first two rounds;
   double narrow_gate_m = 0.3;  ///< then half of it each round, down to this
   double converged_m = 0.001;  ///< a round that moves the pose by less than both is the last
   double converged_deg = 0.003;
-  int least_matches = 50;          ///< with fewer the prediction stands
-  double least_eigenvalue = 0.001; ///< smaller: the direction is degenerate (Observability)
+  int least_matches = 50;           ///< with fewer the prediction stands
+  double least_eigenvalue = 0.001;  ///< smaller: the direction is degenerate (Observability)
   MatchOptions matches;
   ObjectiveOptions objective;
 };

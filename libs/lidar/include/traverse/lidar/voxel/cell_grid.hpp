@@ -6,6 +6,12 @@
 
 namespace traverse::lidar::voxel {
 
+/// Number of a cell relative to the base of a grid.
+struct RelativeCell {
+  std::int32_t x, y, z;
+  bool operator==(const RelativeCell&) const = default;
+};
+
 /// How floats near the vehicle and the cells of a map meet. Cells are anchored to the map frame and
 /// numbered from its origin; points come as floats relative to a nearby `origin_map`, so that a
 /// float is fine enough however far the drive goes.
@@ -22,6 +28,9 @@ struct CellGrid {
     const float edges = (value + shift[axis]) * per_m;
     const auto whole = static_cast<std::int32_t>(edges);
     return whole - static_cast<std::int32_t>(edges < static_cast<float>(whole));
+  }
+  RelativeCell cell(float x, float y, float z) const {
+    return {cell(x, 0), cell(y, 1), cell(z, 2)};
   }
   /// Coordinate of the centre of a cell relative to base.
   float centre(std::int32_t relative_cell, int axis) const {

@@ -29,14 +29,15 @@ class LineMap {
   void insert(const LocalPoints& points);
   void keep_near(const Eigen::Vector3d& centre_map, double radius_m);
 
-  /// The line that answers for a point, as two planes in local coordinates: n . p + d = 0.
+  /// The line that answers for the points in a cell, as two planes in local coordinates: n . p + d
+  /// = 0.
   struct Answer {
     float n1[3], d1;
     float n2[3], d2;
     float variance;
   };
-  /// \returns false if the point's cell has no line.
-  bool find(const CellGrid& grid, float x, float y, float z, Answer& answer) const;
+  /// \returns false if the cell has no line.
+  bool find(const CellGrid& grid, const RelativeCell& cell, Answer& answer) const;
 
   CellGrid grid(const Eigen::Vector3d& origin_map) const { return {origin_map, options_.cell_m}; }
   std::size_t size() const { return cold_.size(); }

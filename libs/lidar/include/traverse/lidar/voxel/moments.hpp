@@ -25,9 +25,31 @@ struct Moments {
     yz += py * pz;
     zz += pz * pz;
   }
-  void add(const Moments& other);
-  /// Adds `other`, whose origin lies at (dx, dy, dz) in this one's coordinates.
-  void add_shifted(const Moments& other, float dx, float dy, float dz);
+  void add(const Moments& o) {
+    n += o.n;
+    x += o.x;
+    y += o.y;
+    z += o.z;
+    xx += o.xx;
+    xy += o.xy;
+    xz += o.xz;
+    yy += o.yy;
+    yz += o.yz;
+    zz += o.zz;
+  }
+  /// Adds `o`, whose origin lies at (dx, dy, dz) in this one's coordinates.
+  void add_shifted(const Moments& o, float dx, float dy, float dz) {
+    n += o.n;
+    xx += o.xx + 2 * dx * o.x + o.n * dx * dx;
+    xy += o.xy + dx * o.y + dy * o.x + o.n * dx * dy;
+    xz += o.xz + dx * o.z + dz * o.x + o.n * dx * dz;
+    yy += o.yy + 2 * dy * o.y + o.n * dy * dy;
+    yz += o.yz + dy * o.z + dz * o.y + o.n * dy * dz;
+    zz += o.zz + 2 * dz * o.z + o.n * dz * dz;
+    x += o.x + o.n * dx;
+    y += o.y + o.n * dy;
+    z += o.z + o.n * dz;
+  }
   /// Halves every sum: what came before counts half from now on. Exact in floats.
   void forget_half();
 

@@ -45,12 +45,15 @@ class PlaneMap {
   /// Drops cells farther than `radius_m` from `centre_map`; coarse cells go as a whole.
   void keep_near(const Eigen::Vector3d& centre_map, double radius_m, Workers& workers);
 
-  /// The plane that answers for a point, in local coordinates: n . p + d = 0.
+  /// The plane that answers for the points in a cell, in local coordinates: n . p + d = 0.
   struct Answer {
     float nx, ny, nz, d, variance;
   };
-  /// \returns false if neither the point's cell nor its parent has a plane.
-  bool find(const CellGrid& grid, float x, float y, float z, Answer& answer) const;
+  /// \returns false if neither the cell nor its parent has a plane.
+  bool find(const CellGrid& grid, const RelativeCell& cell, Answer& answer) const;
+
+  /// Starts to fetch what find() will read for the cell: the map is larger than the cache.
+  void prefetch(const CellGrid& grid, const RelativeCell& cell) const;
 
   CellGrid grid(const Eigen::Vector3d& origin_map) const { return {origin_map, options_.cell_m}; }
   std::size_t size() const;   ///< fine cells, with a plane or without
@@ -73,6 +76,7 @@ class PlaneMap {
     std::vector<PlaneCell> planes;
     std::vector<CellNumber> numbers;
 
+    std::size_t home(std::uint32_t key) const;  ///< the slot where a search for the key begins
     std::uint32_t find(std::uint32_t key) const;
     std::uint32_t find_or_add(std::uint32_t key, const CellNumber& number);
     void rebuild_table();
@@ -80,6 +84,7 @@ class PlaneMap {
   struct Shard {
     Level fine, coarse;
     std::vector<std::uint32_t> touched_fine, touched_coarse;
+    std::vector<std::uint32_t> cells;  ///< of the runs being inserted
   };
   /// Consecutive points of one row that fell into one cell.
   struct Run {
@@ -89,7 +94,8 @@ class PlaneMap {
 
   void collect_runs(const LocalPoints& points, std::size_t begin, std::size_t end,
                     std::array<std::vector<Run>, kShards>& runs) const;
-  void insert_run(Shard& shard, const Run& run) const;
+  void insert_runs(Shard& shard, const std::vector<Run>& runs) const;
+  std::uint32_t fine_cell(Shard& shard, const CellNumber& number) const;
   void refit(Level& level, std::uint32_t cell, double cell_m) const;
 
   PlaneMapOptions options_;

@@ -36,10 +36,25 @@ struct ScanMatches {
   double scale = 1;  ///< robust standard deviation of the plane residuals over their weights
 
   std::size_t size() const { return planes.size() + line_1.size(); }
+
+  /// What the map answered for a point's cell. Most points stay in theirs from round to round.
+  template <typename Answer>
+  struct Remembered {
+    RelativeCell cell{0, 0, 0};
+    bool asked = false;
+    bool found = false;
+    Answer answer{};
+  };
+  std::vector<Remembered<PlaneMap::Answer>> plane_answers;
+  std::vector<Remembered<LineMap::Answer>> line_answers;
+
+  /// Before the first association of a scan.
+  void forget();
 };
 
 /// Matches each planar point with the plane of the cell it falls into under the pose, each edge
-/// point with the line of its cell, when no farther from it than `gate_m`. The order is that of the
+/// point with the line of its cell, when no farther from it than `gate_m`. Between calls for one
+/// scan and one map `matches` remembers the cells that it asked for. The order is that of the
 /// points for any number of workers.
 /// \param planar, edges  the scan's points taken to the map under the pose (to_local)
 void associate(const SweepSample& sample, const LocalPoints& planar, const LocalPoints& edges,
