@@ -58,10 +58,9 @@ void bind(config::Binder& b, SamplingOptions& o) {
            "narrower with background on both sides: a pole");
 }
 
-void RowSamples::clear() {
-  surface.clear();
-  planar.clear();
-  edges.clear();
+void RowSamples::reserve(std::size_t points) {
+  surface.reserve(points);
+  planar.reserve(points);
 }
 
 void find_breaks(const Row& row, const SamplingOptions& options, const Seam& seam,

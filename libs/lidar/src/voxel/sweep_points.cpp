@@ -7,6 +7,11 @@ void SweepPoints::resize(std::size_t points) {
   source.resize(points);
 }
 
+void SweepPoints::reserve(std::size_t points) {
+  for (auto* values : {&x, &y, &z, &range, &time}) values->reserve(points);
+  source.reserve(points);
+}
+
 void SweepPoints::push_back(float px, float py, float pz, float point_range,
                             std::uint32_t point_source) {
   x.push_back(px);

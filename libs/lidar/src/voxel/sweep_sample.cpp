@@ -1,5 +1,6 @@
 #include "traverse/lidar/voxel/sweep_sample.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -15,7 +16,8 @@ namespace traverse::lidar::voxel {
 namespace {
 
 constexpr std::size_t kRowsInChunk = 4;
-constexpr std::size_t kLeastRow = 20;  // points; a shorter row says little and is passed over
+constexpr std::size_t kExpected = 2048;  // surface points of a chunk
+constexpr std::size_t kLeastRow = 20;    // points; a shorter row says little and is passed over
 
 /// 0 ... count - 1 in the order of their reversed bits.
 std::vector<std::size_t> bit_reversed_order(std::size_t count) {
@@ -87,6 +89,8 @@ std::array<std::size_t, kFeatureClasses> SweepSample::class_counts() const {
   const auto count = [&](FeatureClass c) -> std::size_t& {
     return counts[static_cast<std::size_t>(c)];
   };
+  const auto planar_in_surface = static_cast<std::size_t>(
+      std::count(surface_is_planar.begin(), surface_is_planar.end(), std::uint8_t{1}));
   count(FeatureClass::kSharp) = edges.size();
   count(FeatureClass::kFlat) = planar.size();
   count(FeatureClass::kLessFlat) = planar_in_surface - planar.size();
@@ -131,6 +135,7 @@ SweepSample sample_sweep(const sensors::LidarScan& scan, const sensors::LidarPro
   std::vector<ChunkSample> chunks((order.size() + kRowsInChunk - 1) / kRowsInChunk);
   workers.run(chunks.size(), [&](std::size_t c) {
     ChunkSample& chunk = chunks[c];
+    chunk.samples.reserve(kExpected);
     std::vector<std::uint8_t> breaks;
     const std::size_t end = std::min(order.size(), (c + 1) * kRowsInChunk);
     for (std::size_t k = c * kRowsInChunk; k < end; ++k) {
@@ -153,7 +158,8 @@ SweepSample sample_sweep(const sensors::LidarScan& scan, const sensors::LidarPro
   for (const ChunkSample& chunk : chunks) {
     sample.surface.append(chunk.samples.surface);
     sample.edges.append(chunk.samples.edges);
-    for (const std::uint8_t planar : chunk.samples.planar) sample.planar_in_surface += planar;
+    sample.surface_is_planar.insert(sample.surface_is_planar.end(), chunk.samples.planar.begin(),
+                                    chunk.samples.planar.end());
     for (const std::uint32_t i : chunk.first_of_cube) candidates.append(chunk.samples.surface, i);
   }
   const std::vector<std::uint8_t> all(candidates.size(), 1);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "traverse/lidar/voxel/used_points.hpp"
 #include "traverse/sensors/sweep_timing.hpp"
 
 #include "stopwatch.hpp"
@@ -61,15 +62,11 @@ CorrectedScan VoxelMapOdometry::used_scan(const sensors::LidarScan& scan,
                                           const geometry::Twist& velocity,
                                           bool with_classes) const {
   const geometry::Twist motion = deskew_note_ == "on" ? velocity : geometry::Twist::Zero();
-  CorrectedScan used = corrected(scan, profile_, motion);
-  if (!with_classes) return used;
-  const SweepSample sample = sample_sweep(scan, profile_, options_.sampling, *workers_);
-  std::vector<FeatureClass> classes(scan.size(), FeatureClass::kNone);
-  const auto mark = [&](const SweepPoints& points, FeatureClass c) {
-    for (const std::uint32_t i : points.source) classes[i] = c;
-  };
-  mark(sample.edges, FeatureClass::kSharp);
-  for (const std::uint32_t i : used.source) used.classes.push_back(classes[i]);
+  CorrectedScan used = used_points(scan, profile_, motion);
+  if (with_classes) {
+    Workers alone(1);
+    used.classes = classes_of(used, sample_sweep(scan, profile_, options_.sampling, alone));
+  }
   return used;
 }
 

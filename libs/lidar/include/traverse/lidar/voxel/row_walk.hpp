@@ -44,7 +44,7 @@ struct RowSamples {
   std::vector<std::uint8_t> planar;  ///< one a surface point: its place is the mean of the window
   SweepPoints edges;                 ///< ends of surfaces before a background, and poles
 
-  void clear();
+  void reserve(std::size_t points);
 };
 
 /// Points of surfaces: every spacing_m of arc, where the five neighbours on each side are of the

@@ -15,7 +15,7 @@ struct SweepPoints {
 
   std::size_t size() const { return x.size(); }
   void resize(std::size_t points);
-  void clear() { resize(0); }
+  void reserve(std::size_t points);
   void push_back(float px, float py, float pz, float point_range, std::uint32_t point_source);
   void append(const SweepPoints& other);
   void append(const SweepPoints& other, std::size_t index);

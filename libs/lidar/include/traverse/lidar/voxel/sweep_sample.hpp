@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "traverse/geometry/stamp.hpp"
 #include "traverse/lidar/features.hpp"
@@ -23,12 +25,12 @@ struct SweepSample {
   bool timed = false;             ///< false: point times are not known and all zero
 
   SweepPoints surface;  ///< for the map: planar points and rough ones
-  SweepPoints planar;   ///< for the registration: the first planar point of each cube
-  SweepPoints edges;    ///< for both
+  std::vector<std::uint8_t> surface_is_planar;
+  SweepPoints planar;  ///< for the registration: the first planar point of each cube
+  SweepPoints edges;   ///< for both
 
-  std::size_t planar_in_surface = 0;  ///< how many of `surface` are planar
-  double organise_ms = 0;             ///< rows and ranges
-  double features_ms = 0;             ///< walk, correction, times, thinning
+  double organise_ms = 0;  ///< rows and ranges
+  double features_ms = 0;  ///< walk, correction, times, thinning
 
   /// Edge points are kSharp, registered planar points kFlat, other planar points kLessFlat; points
   /// that only the map takes count as kNone.
