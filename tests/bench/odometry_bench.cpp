@@ -1,4 +1,5 @@
-// Milliseconds of each stage of lidar odometry, with the calibration of the machine beside them.
+// Milliseconds of each stage of each lidar odometry, with the calibration of the machine beside
+// them.
 //
 //   odometry_bench                     the 100 scans of KITTI drive 0005 when they are there (see
 //                                      tests/test_data.hpp), else a simulated street
@@ -21,6 +22,7 @@
 
 #include "traverse/dataset/open_recording.hpp"
 #include "traverse/lidar/scan_to_map_odometry.hpp"
+#include "traverse/lidar/voxel/voxel_map_odometry.hpp"
 
 #include "lidar/simulated_drive.hpp"
 #include "test_data.hpp"
@@ -97,17 +99,18 @@ double median_of(const std::vector<lidar::Frame>& frames,
   return values[values.size() / 2];
 }
 
+template <typename Odometry, typename Options>
 void odometry(benchmark::State& state) {
   static const Recording recording = load_recording();
   static const double calibration = calibration_ms();
-  lidar::ScanToMapOdometryOptions options;
+  Options options;
   options.threads = static_cast<int>(state.range(0));
   std::vector<lidar::Frame> frames;
   for (auto _ : state) {
-    lidar::ScanToMapOdometry odometry(options, recording.profile, false);
+    Odometry algorithm(options, recording.profile, false);
     frames.clear();
     for (const auto& scan : recording.scans) {
-      for (lidar::Frame& frame : odometry.process(scan)) frames.push_back(std::move(frame));
+      for (lidar::Frame& frame : algorithm.process(scan)) frames.push_back(std::move(frame));
     }
   }
   using Times = lidar::StageTimes;
@@ -124,15 +127,20 @@ void odometry(benchmark::State& state) {
   state.counters["solve_ms"] = median_of(frames, [](const Times& t) { return t.solve; });
   state.counters["insert_ms"] = median_of(frames, [](const Times& t) { return t.insert; });
 }
-BENCHMARK(odometry)
-    ->ArgName("threads")
-    ->Arg(1)
-    ->Arg(2)
-    ->Arg(4)
-    ->Iterations(1)
-    ->Repetitions(3)
-    ->Unit(benchmark::kMillisecond)
-    ->DisplayAggregatesOnly(true);
+
+void per_thread(benchmark::internal::Benchmark* bench) {
+  bench->ArgName("threads")->Arg(1)->Arg(2)->Arg(4)->Iterations(1)->Repetitions(3);
+  bench->Unit(benchmark::kMillisecond)->DisplayAggregatesOnly(true);
+}
+
+void floam(benchmark::State& state) {
+  odometry<lidar::ScanToMapOdometry, lidar::ScanToMapOdometryOptions>(state);
+}
+void traverse_preset(benchmark::State& state) {
+  odometry<lidar::voxel::VoxelMapOdometry, lidar::voxel::VoxelMapOdometryOptions>(state);
+}
+BENCHMARK(floam)->Apply(per_thread);
+BENCHMARK(traverse_preset)->Name("traverse")->Apply(per_thread);
 
 }  // namespace
 }  // namespace traverse

@@ -42,7 +42,7 @@ Observability observability(const Matches& matches, const geometry::Pose3& T_map
     result.degenerate = 6;
     return result;
   }
-  result.rotation_scale_m = median_range(matches);
+  const double rotation_scale_m = median_range(matches);
   const Eigen::Matrix3d R_lidar_map = T_map_lidar.rotation.transpose();
   const Eigen::Quaterniond q = T_map_lidar.quaternion();
   const Eigen::Vector3d& t = T_map_lidar.translation;
@@ -54,12 +54,12 @@ Observability observability(const Matches& matches, const geometry::Pose3& T_map
     const Eigen::Vector3d n = R_lidar_map * n_map;
     Vector6 row;
     if (match.fraction == 1) {
-      row << match.p_lidar.cross(n) / result.rotation_scale_m, n;
+      row << match.p_lidar.cross(n) / rotation_scale_m, n;
     } else {
       const PointMotion motion(match.p_lidar, match.fraction, optimization::Perturbation::kRight);
       const Eigen::RowVector3d by_rotation =
           motion.by_rotation(Eigen::RowVector3d(n_map.transpose()), motion.at(q, t));
-      row << by_rotation.transpose() / result.rotation_scale_m, match.fraction * n;
+      row << by_rotation.transpose() / rotation_scale_m, match.fraction * n;
     }
     information.selfadjointView<Eigen::Lower>().rankUpdate(row);
   };
@@ -69,8 +69,15 @@ Observability observability(const Matches& matches, const geometry::Pose3& T_map
     add(match, e);
     add(match, match.line.direction.cross(e));
   }
+  information = Matrix6(information.selfadjointView<Eigen::Lower>());
   information /= static_cast<double>(matches.size());
+  return observability(information, rotation_scale_m, least_eigenvalue);
+}
 
+Observability observability(const Matrix6& information, double rotation_scale_m,
+                            double least_eigenvalue) {
+  Observability result;
+  result.rotation_scale_m = rotation_scale_m;
   const Eigen::SelfAdjointEigenSolver<Matrix6> solver(information);
   result.eigenvalues = solver.eigenvalues();
   result.directions = solver.eigenvectors();

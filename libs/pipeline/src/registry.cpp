@@ -10,6 +10,7 @@
 #include "traverse/files/input_error.hpp"
 #include "traverse/lidar/scan_to_map_odometry.hpp"
 #include "traverse/lidar/two_stage_odometry.hpp"
+#include "traverse/lidar/voxel/voxel_map_odometry.hpp"
 
 #include "lidar_estimator.hpp"
 
@@ -62,7 +63,9 @@ constexpr Kind kLidarKind{settings_of<Options>, make_lidar<Odometry, Options>};
 const Kind& find_kind(const Preset& preset) {
   static const std::map<std::string, Kind, std::less<>> kKinds{
       {"scan_to_map", kLidarKind<lidar::ScanToMapOdometry, lidar::ScanToMapOdometryOptions>},
-      {"two_stage", kLidarKind<lidar::TwoStageOdometry, lidar::TwoStageOdometryOptions>}};
+      {"two_stage", kLidarKind<lidar::TwoStageOdometry, lidar::TwoStageOdometryOptions>},
+      {"voxel_map",
+       kLidarKind<lidar::voxel::VoxelMapOdometry, lidar::voxel::VoxelMapOdometryOptions>}};
   const std::string name = preset.resolved.scalar("estimator").value_or("");
   const auto found = kKinds.find(name);
   if (found != kKinds.end()) return found->second;

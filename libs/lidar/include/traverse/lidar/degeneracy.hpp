@@ -35,4 +35,8 @@ struct Observability {
 Observability observability(const Matches& matches, const geometry::Pose3& T_map_lidar,
                             double least_eigenvalue);
 
+/// The same from an information matrix in scaled axes that is already divided by its matches.
+Observability observability(const Matrix6& information, double rotation_scale_m,
+                            double least_eigenvalue);
+
 }  // namespace traverse::lidar

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "traverse/config/binder.hpp"
+#include "traverse/lidar/frame.hpp"
+#include "traverse/lidar/voxel/scan_objective.hpp"
+#include "traverse/lidar/voxel/voxel_map.hpp"
+
+namespace traverse::lidar::voxel {
+
+struct AlignmentOptions {
+  int rounds = 6;              ///< of association and solve at most
+  int iterations = 1;          ///< of Levenberg-Marquardt in a round
+  double gate_m = 0.6;         ///< farther planes and lines do not match, in the first two rounds;
+  double narrow_gate_m = 0.3;  ///< then half of it each round, down to this
+  double converged_m = 0.001;  ///< a round that moves the pose by less than both is the last
+  double converged_deg = 0.003;
+  int least_matches = 50;           ///< with fewer the prediction stands
+  double least_eigenvalue = 0.001;  ///< smaller: the direction is degenerate (Observability)
+  MatchOptions matches;
+  ObjectiveOptions objective;
+};
+void bind(config::Binder& binder, AlignmentOptions& options);
+
+/// Outcome of the registration of one scan.
+struct Alignment {
+  geometry::Pose3 T_map_lidar;
+  RegistrationHealth health;
+  std::size_t standing_planes = 0;  ///< matches with planes that are not nearly horizontal
+};
+
+/// How hard to try: the first frames come with worse predictions.
+struct Effort {
+  int extra_rounds = 0;
+  double gate_factor = 1;
+};
+
+/// Moves the pose so that the scan's points come onto the planes and lines of the map. Each round
+/// associates at the present pose, then Ceres minimises the robust cost of these matches (one
+/// condensed cost function, whose derivative is analytic). The step of a round is projected on the
+/// directions that the matches determine: a degenerate one keeps its prediction.
+Alignment align(const SweepSample& sample, const VoxelMap& map, const MotionModel& motion,
+                const geometry::Pose3& guess_T_map_lidar, const AlignmentOptions& options,
+                const Effort& effort, Workers& workers, StageTimes& ms);
+
+}  // namespace traverse::lidar::voxel

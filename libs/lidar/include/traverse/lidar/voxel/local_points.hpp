@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "traverse/geometry/pose3.hpp"
+#include "traverse/lidar/voxel/sweep_points.hpp"
+
+namespace traverse::lidar::voxel {
+
+class Workers;
+
+/// Points in the axes of the map, as floats relative to an origin near the vehicle.
+struct LocalPoints {
+  Eigen::Vector3d origin_map = Eigen::Vector3d::Zero();
+  std::vector<float> x, y, z;  ///< metres
+
+  std::size_t size() const { return x.size(); }
+};
+
+/// The motion within a sweep as floats, for loops: p_stamp = Exp(time * velocity) p to the third
+/// order of time, which for 3 rad/s and half a sweep of 0.1 s is right to 2e-5 of the range.
+struct SweepMotion {
+  float w[3], v[3];  ///< rad/s, m/s, lidar frame
+
+  explicit SweepMotion(const geometry::Twist& velocity);
+
+  void apply(float time, float& x, float& y, float& z) const {
+    const float ax = w[1] * z - w[2] * y + v[0];
+    const float ay = w[2] * x - w[0] * z + v[1];
+    const float az = w[0] * y - w[1] * x + v[2];
+    const float bx = w[1] * az - w[2] * ay;
+    const float by = w[2] * ax - w[0] * az;
+    const float bz = w[0] * ay - w[1] * ax;
+    const float cx = w[1] * bz - w[2] * by;
+    const float cy = w[2] * bx - w[0] * bz;
+    const float cz = w[0] * by - w[1] * bx;
+    const float second = 0.5F * time * time;
+    const float third = time * second * (1.0F / 3);
+    x += time * ax + second * bx + third * cx;
+    y += time * ay + second * by + third * cy;
+    z += time * az + second * bz + third * cz;
+  }
+};
+
+/// Deskews `points` with the body `velocity` [rad/s, m/s] and takes them to the map.
+void to_local(const SweepPoints& points, const geometry::Pose3& T_map_lidar,
+              const geometry::Twist& velocity, Workers& workers, LocalPoints& local);
+
+}  // namespace traverse::lidar::voxel
