@@ -45,7 +45,7 @@ struct SimulateArguments {
   std::optional<std::int64_t> seed;
   std::vector<std::string> overrides;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  int gzip_level = 1;
+  int gzip_level = 0;
 };
 
 constexpr const char* kExamples = R"(Examples:
@@ -250,7 +250,7 @@ void add_simulate(CLI::App& app) {
   command->add_option("--threads", arguments->threads, "threads; the result does not depend on it")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  command->add_option("--gzip", arguments->gzip_level, "compression of a rawlog, 0 (none) to 9")
+  command->add_option("--gzip", arguments->gzip_level, "compression of a rawlog: 0 is quick, 1 halves the file")
       ->check(CLI::Range(0, 9))
       ->capture_default_str();
   command->footer(kExamples);

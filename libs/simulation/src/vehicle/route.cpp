@@ -67,7 +67,10 @@ ImpossibleRoute::ImpossibleRoute(std::string k, std::string e, std::string f)
 
 Route::Route(const RouteSettings& settings) {
   std::vector<Eigen::Vector2d> points = waypoints_of(settings);
-  if (!settings.closed) extend(points);
+  if (!settings.closed) {
+    RoundedLine(points, false, settings.corner_radius_m);  // corners must fit without the extension
+    extend(points);
+  }
   const RoundedLine line(points, settings.closed, settings.corner_radius_m);
 
   const auto pieces = static_cast<std::size_t>(std::ceil(line.length() / kControlEvery));

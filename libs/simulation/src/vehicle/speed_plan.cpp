@@ -9,6 +9,8 @@ namespace traverse::simulation {
 namespace {
 
 constexpr double kGrid = 0.5;  ///< metres
+/// Seconds: the spline through the plan moves a little before and after the plan does.
+constexpr double kSettling = 0.6;
 
 /// The largest speed at each grid point, as the corners allow and brakes and engine can follow.
 std::vector<double> speeds(const Route& route, const RouteSettings& s, std::size_t count,
@@ -66,11 +68,11 @@ SpeedPlan plan_speed(const Route& route, const RouteSettings& settings) {
   const auto stand = [&](double metres, double seconds) {
     for (double t = 0; t < seconds; t += SpeedPlan::kStep) plan.progress_m.push_back(metres);
   };
-  stand(0, settings.standstill_s + width_s / 2);
+  stand(0, settings.standstill_s + (width_s + kSettling) / 2);
   double into = 0;  // seconds since the segment's begin of the next sample
   for (std::size_t i = 0; i + 1 < count; ++i) {
     const double begin = step * static_cast<double>(i);
-    if (i > 0 && speed[i] == 0) stand(begin, settings.stop_s + width_s);
+    if (i > 0 && speed[i] == 0) stand(begin, settings.stop_s + width_s + kSettling);
     const double seconds = 2 * step / (speed[i] + speed[i + 1]);
     const double acceleration = (speed[i + 1] - speed[i]) / seconds;
     for (; into < seconds; into += SpeedPlan::kStep) {
@@ -78,7 +80,7 @@ SpeedPlan plan_speed(const Route& route, const RouteSettings& settings) {
     }
     into -= seconds;
   }
-  stand(route.length_m(), settings.standstill_s + width_s / 2);
+  stand(route.length_m(), settings.standstill_s + (width_s + kSettling) / 2);
   const auto width = static_cast<std::size_t>(width_s / SpeedPlan::kStep);
   plan.progress_m = running_mean(plan.progress_m, width);
   return plan;

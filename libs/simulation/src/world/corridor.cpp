@@ -25,6 +25,7 @@ void add_door(Site& site, const Street& part, double lateral, double side, Mater
   sweep(site.mesh, part, ground, {lateral, kDoorHeight}, {lateral, height}, Material::kPlaster);
   sweep(site.mesh, part, ground, {lateral, kDoorHeight}, {back, kDoorHeight}, Material::kPlaster);
   sweep(site.mesh, part, ground, {back, 0}, {back, kDoorHeight}, material);
+  sweep(site.mesh, part, ground, {lateral, 0}, {back, 0}, Material::kPaving);
   for (const auto& end : {part.stations.front(), part.stations.back()}) {
     const auto a = end.beside(lateral);
     const auto b = end.beside(back);

@@ -47,22 +47,22 @@ Mesh make_tree(double height, Random& random) {
                                          height * random.uniform(0.2, 0.5));
     mesh.add_tube(fork, tip, 0.5 * radius, 0.15 * radius, 5, Material::kBark);
     const double r = height * random.uniform(0.12, 0.18);
-    add_clump(mesh, tip, {r, r, 0.8 * r}, 80, 0.3, random);
+    add_clump(mesh, tip, {r, r, 0.8 * r}, 140, 0.24, random);
   }
   add_clump(mesh, fork + Vector3d(0, 0, 0.42 * height), {0.2 * height, 0.2 * height, 0.22 * height},
-            160, 0.32, random);
+            280, 0.25, random);
   return mesh;
 }
 
 Mesh make_conifer(double height, Random& random) {
   Mesh mesh;
   mesh.add_tube({0, 0, -0.5}, {0, 0, height}, 0.015 * height, 0.02, 7, Material::kBark);
-  for (int i = 0; i < 550; ++i) {
+  for (int i = 0; i < 900; ++i) {
     const double share = std::sqrt(random.uniform(0, 1));  // from the tip down
     const double angle = random.uniform(0, 2 * std::numbers::pi);
     const double reach = share * 0.2 * height * std::sqrt(random.uniform(0.1, 1));
     add_leaf(mesh, {reach * std::cos(angle), reach * std::sin(angle), height * (1 - 0.9 * share)},
-             0.3, random);
+             0.24, random);
   }
   return mesh;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <Eigen/Geometry>
+#include <tbb/task_arena.h>
 
 namespace traverse::simulation {
 
@@ -23,9 +24,8 @@ struct Plane {
   double offset;           ///< normal . p of its points
 };
 
-/// One thread builds the tree, so that it is the same each time.
 RTCDevice make_device() {
-  RTCDevice device = rtcNewDevice("threads=1,set_affinity=0");
+  RTCDevice device = rtcNewDevice(nullptr);
   if (device == nullptr) throw std::runtime_error("Embree cannot be started");
   return device;
 }
@@ -85,7 +85,10 @@ RayCaster::RayCaster(const Mesh& mesh) : scene_(std::make_unique<Scene>()) {
   rtcReleaseGeometry(geometry);
   rtcSetSceneFlags(scene_->scene, RTC_SCENE_FLAG_ROBUST);  // no ray slips between two triangles
   rtcSetSceneBuildQuality(scene_->scene, RTC_BUILD_QUALITY_MEDIUM);
-  rtcCommitScene(scene_->scene);
+  // One thread builds the tree, so that it is the same each time. (A device of one thread would do
+  // it too, but limits TBB in the whole process.)
+  tbb::task_arena alone(1);
+  alone.execute([&] { rtcJoinCommitScene(scene_->scene); });
   if (rtcGetDeviceError(scene_->device) != RTC_ERROR_NONE) {
     throw std::runtime_error("Embree cannot take the world: too large for the memory");
   }

@@ -97,7 +97,7 @@ void line_kerb(Site& site, const Street& street, unsigned number, double half_wi
       const double yaw = at.heading + (side > 0 ? std::numbers::pi : 0);
       site.mesh.add(lamp, upright(site.on_ground(p, kKerb), yaw));
       next_lamp = s + 25;
-    } else if (random.chance(0.4)) {
+    } else if (random.chance(0.55)) {
       plant(site, greenery.trees, p, 0.4, kKerb, 0.7, 1.1);
     } else if (random.chance(0.5)) {
       site.mesh.add(random.chance(0.6) ? make_sign(random) : make_bin(),

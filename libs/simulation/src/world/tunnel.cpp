@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kOpen = 70;    ///< metres of open road before and behind the tunnel
 constexpr double kPortal = 12;  ///< metres, half width of its portal wall
+constexpr double kCover = 1.2;  ///< metres of earth on top
 
 /// The cross-section above the road from right to left: upright walls, then a vault.
 std::vector<Edge> vault(double half_width, double height) {
@@ -27,13 +28,32 @@ std::vector<Edge> vault(double half_width, double height) {
   return section;
 }
 
-void add_portal(Site& site, const Street::Station& at, double half_width, double height) {
+/// The wall around the mouth: from the cross-section out to a rectangle.
+void add_portal(Site& site, const Street::Station& at, const std::vector<Edge>& section,
+                double height) {
   const geometry::Pose3 T = upright(site.on_ground(at.point), at.heading);
-  for (const double side : {-1.0, 1.0}) {
-    site.mesh.add_box(T * upright({0, side * (half_width + kPortal) / 2, -0.5}, 0),
-                      {0.8, kPortal - half_width, height + 3}, Material::kConcrete);
+  const double top = height + kCover + 1;
+  const auto outwards = [&](const Edge& edge) -> Eigen::Vector3d {
+    return {0, edge.lateral / std::abs(section.front().lateral) * kPortal,
+            edge.height <= 0 ? edge.height : top};
+  };
+  for (std::size_t i = 0; i + 1 < section.size(); ++i) {
+    site.mesh.add_quad(T * Eigen::Vector3d(0, section[i].lateral, section[i].height),
+                       T * Eigen::Vector3d(0, section[i + 1].lateral, section[i + 1].height),
+                       T * outwards(section[i + 1]), T * outwards(section[i]), Material::kConcrete);
   }
-  site.mesh.add_box(T * upright({0, 0, height}, 0), {0.8, 2 * kPortal, 2.5}, Material::kConcrete);
+}
+
+/// The hill over the tunnel.
+void add_hill(Site& site, const Street& tube, double to_wall, double height) {
+  const double top = height + kCover;
+  sweep(site.mesh, tube, site.terrain, {-to_wall, top}, {to_wall, top}, Material::kGrass);
+  for (const double side : {-1.0, 1.0}) {
+    sweep(site.mesh, tube, site.terrain, {side * to_wall, top}, {side * kPortal, top - 1},
+          Material::kGrass);
+    sweep(site.mesh, tube, site.terrain, {side * kPortal, top - 1}, {side * (kPortal + 16), 0},
+          Material::kGrass);
+  }
 }
 
 /// Niches, lamps and signs; what makes a tunnel less featureless.
@@ -68,8 +88,9 @@ void build_tunnel(Site& site) {
     sweep(site.mesh, tube, site.terrain, section[i], section[i + 1], Material::kConcrete);
   }
   for (const auto& end : {tube.stations.front(), tube.stations.back()}) {
-    add_portal(site, end, to_wall, settings.height_m);
+    add_portal(site, end, section, settings.height_m);
   }
+  add_hill(site, tube, to_wall, settings.height_m);
   if (settings.density > 0) equip(site, tube, to_wall);
 
   const Greenery greenery(site.random);

@@ -23,6 +23,8 @@ class Simulation {
  public:
   /// \throws std::invalid_argument saying what the lidar's profile lacks to be simulated.
   Simulation(const WorldDescription& world, const sensors::LidarProfile& lidar);
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
 
   const WorldDescription& world() const { return world_; }
   const VehicleMotion& motion() const { return motion_; }
