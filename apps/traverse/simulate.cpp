@@ -15,6 +15,7 @@
 #include "traverse/config/document.hpp"
 #include "traverse/config/settings.hpp"
 #include "traverse/dataset/recording_writer.hpp"
+#include "traverse/dataset/trajectory_files.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/simulation/ring_order.hpp"
@@ -58,7 +59,8 @@ constexpr const char* kExamples = R"(Examples:
 Beside X.rawlog stand X.traverse.yaml (what holds of it), X.reference.tum (the exact poses),
 X.rig.yaml (the calibration), X.world.yaml (every setting, to be simulated again) and X.gnss.csv
 (headings and deviations, which rawlogs have no place for). A KITTI folder holds the same files
-without X. (and no IMU, wheels or GNSS but in gnss.csv). The same seed gives the same bytes.)";
+without X., and poses.txt and calib.txt of a camera 0 that looks ahead from the lidar's place; of the
+other sensors it has gnss.csv only. The same seed gives the same bytes.)";
 
 void list(const fs::path& share) {
   const auto files = [&](const char* folder) {
@@ -151,6 +153,15 @@ std::string name_beside(const SimulateArguments& arguments, const char* name) {
   return fs::path(arguments.output).replace_extension(name).string();
 }
 
+/// The poses of camera 0 as KITTI's benchmark gives them, the first at the origin.
+void write_camera_poses(const dataset::RecordingInfo& info, const geometry::Trajectory& T_map_body,
+                        const std::string& file) {
+  const geometry::Pose3& T_body_camera = *info.T_body_camera;
+  const geometry::Pose3 T_first_map = (T_map_body.pose(0) * T_body_camera).inverse();
+  dataset::write_kitti(file,
+                       T_map_body.transformed_left(T_first_map).transformed_right(T_body_camera));
+}
+
 void simulate(const SimulateArguments& arguments) {
   const InstalledFiles installed = find_installed_files();
   std::vector<std::string> overrides = arguments.overrides;
@@ -194,6 +205,7 @@ void simulate(const SimulateArguments& arguments) {
   simulation::WorldDescription resolved = world;
   files::write_text(name_beside(arguments, "world.yaml"),
                     config::to_yaml([&](config::Binder& b) { bind(b, resolved); }, true));
+  if (kitti) write_camera_poses(info, truth.T_map_body, name_beside(arguments, "poses.txt"));
   if (!gnss.empty()) files::write_text(name_beside(arguments, "gnss.csv"), gnss.text());
   bar.finish();
   fmt::print("{}: {} scans of {}, {:.1f} M points, {:.1f} m driven, {} triangles\n",
@@ -250,7 +262,9 @@ void add_simulate(CLI::App& app) {
   command->add_option("--threads", arguments->threads, "threads; the result does not depend on it")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  command->add_option("--gzip", arguments->gzip_level, "compression of a rawlog: 0 is quick, 1 halves the file")
+  command
+      ->add_option("--gzip", arguments->gzip_level,
+                   "compression of a rawlog: 0 is quick, 1 halves the file")
       ->check(CLI::Range(0, 9))
       ->capture_default_str();
   command->footer(kExamples);

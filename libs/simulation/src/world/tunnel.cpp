@@ -10,7 +10,7 @@ namespace traverse::simulation {
 
 namespace {
 
-constexpr double kOpen = 70;    ///< metres of open road before and behind the tunnel
+constexpr double kOpen = 120;   ///< metres of open road before and behind the tunnel
 constexpr double kPortal = 12;  ///< metres, half width of its portal wall
 constexpr double kCover = 1.2;  ///< metres of earth on top
 
