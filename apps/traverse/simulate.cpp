@@ -11,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "traverse/config/document.hpp"
 #include "traverse/config/settings.hpp"
@@ -91,11 +92,13 @@ fs::path find_sensor(const std::string& name, const fs::path& share) {
   if (name.find('/') != std::string::npos || name.ends_with(".yaml")) return name;
   const fs::path file = share / "sensors" / (name + ".yaml");
   if (fs::exists(file)) return file;
-  std::string known;
+  std::vector<std::string> known;
   for (const auto& entry : fs::directory_iterator(share / "sensors")) {
-    known += (known.empty() ? "" : ", ") + entry.path().stem().string();
+    known.push_back(entry.path().stem().string());
   }
-  throw files::InputError(share / "sensors", files::Place::whole_file(), "a sensor (" + known + ")",
+  std::sort(known.begin(), known.end());
+  throw files::InputError(share / "sensors", files::Place::whole_file(),
+                          fmt::format("a sensor ({})", fmt::join(known, ", ")),
                           files::in_quotes(name));
 }
 
