@@ -1,86 +1,233 @@
-#include <cmath>
+#include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
+#include <variant>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "traverse/config/document.hpp"
+#include "traverse/config/settings.hpp"
 #include "traverse/dataset/recording_writer.hpp"
-#include "traverse/simulation/drive.hpp"
-#include "traverse/simulation/scanner.hpp"
-#include "traverse/simulation/worlds.hpp"
+#include "traverse/dataset/trajectory_files.hpp"
+#include "traverse/files/atomic_file.hpp"
+#include "traverse/files/input_error.hpp"
+#include "traverse/simulation/ring_order.hpp"
+#include "traverse/simulation/simulation.hpp"
 
 #include "commands.hpp"
+#include "gnss_table.hpp"
+#include "installed_files.hpp"
 #include "progress_bar.hpp"
 
 namespace traverse::app {
 
 namespace {
 
-constexpr double kSweepsPerSecond = 10;
+namespace fs = std::filesystem;
+using simulation::Simulation;
+using simulation::SweepRange;
 
 struct SimulateArguments {
+  bool list = false;
   std::string world;
   std::string output;
-  double length_m = 120;
-  double speed_mps = 10;
-  double noise_m = 0.02;
-  unsigned seed = 1;
+  std::string format;
+  std::string sensor;
+  std::size_t first = 0;
+  std::size_t last = std::numeric_limits<std::size_t>::max();
+  std::optional<double> duration_s;
+  std::optional<std::int64_t> seed;
+  std::vector<std::string> overrides;
+  int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  int gzip_level = 0;
 };
 
-simulation::AnalyticScene make_world(const SimulateArguments& arguments) {
-  if (arguments.world == "tunnel") return simulation::tunnel(arguments.length_m);
-  return simulation::street(arguments.length_m, arguments.seed);
+constexpr const char* kExamples = R"(Examples:
+  traverse simulate --list
+  traverse simulate town_loop -o town.rawlog && traverse run town.rawlog -o RUN
+  traverse simulate park -o park.rawlog --sensor vlp16 --duration 20
+  traverse simulate town_loop -o sequence --format kitti --seed 4 --set place.vehicles=6
+  traverse simulate highway -o fast.rawlog --set route.speed_mps=36 --set imu.rate_hz=200
+
+Beside X.rawlog stand X.traverse.yaml (what holds of it), X.reference.tum (the exact poses),
+X.rig.yaml (the calibration), X.world.yaml (every setting, to be simulated again) and X.gnss.csv
+(headings and deviations, which rawlogs have no place for). A KITTI folder holds the same files
+without X., and poses.txt and calib.txt of a camera 0 that looks ahead from the lidar's place; of the
+other sensors it has gnss.csv only. The same seed gives the same bytes.)";
+
+void list(const fs::path& share) {
+  const auto files = [&](const char* folder) {
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(share / folder)) {
+      if (entry.path().extension() == ".yaml") found.push_back(entry.path());
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  };
+  fmt::print("worlds:\n");
+  for (const fs::path& file : files("worlds")) {
+    const auto world = simulation::load_world(file, {});
+    fmt::print("  {:<15}{} ({})\n", file.stem().string(), world.description, world.sensor);
+  }
+  fmt::print("sensors:\n");
+  for (const fs::path& file : files("sensors")) {
+    const auto profile = sensors::load_lidar_profile(file);
+    if (profile.firing.period_us == 0) continue;  // known, but not when its beams fire
+    fmt::print("  {:<15}{}: {} beams, {:g} to {:g} m, {:.0f} firings a sweep of {:g} s\n",
+               file.stem().string(), profile.name, profile.rings, profile.min_range_m,
+               profile.max_range_m, 1e6 * profile.sweep_s / profile.firing.period_us,
+               profile.sweep_s);
+  }
 }
 
-/// What the rawlog says of itself: the sensor as simulated, and the exact truth as its reference.
-dataset::RecordingInfo describe(const SimulateArguments& arguments,
-                                const simulation::Scanner& scanner, std::size_t scans) {
+fs::path find_sensor(const std::string& name, const fs::path& share) {
+  if (name.find('/') != std::string::npos || name.ends_with(".yaml")) return name;
+  const fs::path file = share / "sensors" / (name + ".yaml");
+  if (fs::exists(file)) return file;
+  std::vector<std::string> known;
+  for (const auto& entry : fs::directory_iterator(share / "sensors")) {
+    known.push_back(entry.path().stem().string());
+  }
+  std::sort(known.begin(), known.end());
+  throw files::InputError(share / "sensors", files::Place::whole_file(),
+                          fmt::format("a sensor ({})", fmt::join(known, ", ")),
+                          files::in_quotes(name));
+}
+
+Simulation make_simulation(const simulation::WorldDescription& world, const fs::path& sensor) {
+  const sensors::LidarProfile profile = sensors::load_lidar_profile(sensor);
+  try {
+    return {world, profile};
+  } catch (const std::invalid_argument& error) {
+    throw files::InputError(sensor, files::Place::whole_file(), "a lidar that can be simulated",
+                            error.what());
+  }
+}
+
+SweepRange choose_sweeps(const Simulation& simulation, const SimulateArguments& arguments) {
+  const std::size_t all = simulation.lidar().sweeps();
+  SweepRange sweeps{arguments.first, std::min(arguments.last, all - 1) + 1};
+  if (arguments.duration_s) {
+    const double sweep_s = simulation.lidar().begin_s(1);
+    const auto count =
+        static_cast<std::size_t>(std::max(1.0, *arguments.duration_s / sweep_s + 0.5));
+    sweeps.end = std::min(sweeps.end, sweeps.first + count);
+  }
+  if (sweeps.first >= sweeps.end) {
+    throw std::runtime_error(
+        fmt::format("nothing to simulate: the drive of {:.1f} s has sweeps 0 to {}",
+                    simulation.motion().duration_s(), all - 1));
+  }
+  return sweeps;
+}
+
+bool is_kitti(const SimulateArguments& arguments) {
+  if (!arguments.format.empty()) return arguments.format == "kitti";
+  return fs::path(arguments.output).extension() != ".rawlog";
+}
+
+dataset::RecordingInfo describe(const Simulation& simulation, const SimulateArguments& arguments,
+                                std::size_t scans) {
   dataset::RecordingInfo info;
   info.path = arguments.output;
   info.format = "simulation";
-  info.name = fmt::format("simulated {}", arguments.world);
-  info.rig.body_frame = "lidar";
-  sensors::MountedSensor lidar;
-  lidar.label = "lidar";
-  lidar.lidar = scanner.profile;
-  info.rig.sensors.push_back(std::move(lidar));
+  info.name =
+      fmt::format("{} ({})", simulation.world().name, simulation.rig().sensors[0].lidar->name);
+  info.rig = simulation.rig();
   info.expected_scans = scans;
+  if (is_kitti(arguments)) {
+    // KITTI's files need a camera 0: one that looks ahead from the lidar's place.
+    info.rig.sensors[0].lidar = simulation::in_ring_order(*info.rig.sensors[0].lidar);
+    info.T_body_camera = info.rig.sensors[0].T_body_sensor * simulation::camera_axes();
+  }
   return info;
 }
 
+std::string name_beside(const SimulateArguments& arguments, const char* name) {
+  if (is_kitti(arguments)) return (fs::path(arguments.output) / name).string();
+  return fs::path(arguments.output).replace_extension(name).string();
+}
+
+/// The poses of camera 0 as KITTI's benchmark gives them, the first at the origin.
+void write_camera_poses(const dataset::RecordingInfo& info, const geometry::Trajectory& T_map_body,
+                        const std::string& file) {
+  const geometry::Pose3& T_body_camera = *info.T_body_camera;
+  const geometry::Pose3 T_first_map = (T_map_body.pose(0) * T_body_camera).inverse();
+  dataset::write_kitti(file,
+                       T_map_body.transformed_left(T_first_map).transformed_right(T_body_camera));
+}
+
 void simulate(const SimulateArguments& arguments) {
-  const simulation::AnalyticScene world = make_world(arguments);
-  simulation::Drive drive;
-  drive.speed_mps = arguments.speed_mps;
-  simulation::Scanner scanner = simulation::demo_scanner();
-  scanner.range_noise_m = arguments.noise_m;
-  scanner.seed = arguments.seed;
+  const InstalledFiles installed = find_installed_files();
+  std::vector<std::string> overrides = arguments.overrides;
+  if (arguments.seed) overrides.push_back(fmt::format("seed={}", *arguments.seed));
+  if (!arguments.sensor.empty()) overrides.push_back("sensor=" + arguments.sensor);
+  const auto world =
+      simulation::load_world(simulation::find_world(arguments.world, installed.share), overrides);
+  const Simulation simulation = make_simulation(world, find_sensor(world.sensor, installed.share));
+  const SweepRange sweeps = choose_sweeps(simulation, arguments);
+  const std::size_t scans = sweeps.end - sweeps.first;
 
-  const auto scans = static_cast<std::size_t>(
-      std::floor(arguments.length_m / arguments.speed_mps * kSweepsPerSecond) + 1);
-  const dataset::RecordingInfo info = describe(arguments, scanner, scans);
-  dataset::Reference truth;
-  truth.file = arguments.output;
-  truth.description = "exact truth of the simulation";
-  const geometry::Pose3 T_start_map = drive.pose(0).inverse();
-  for (std::size_t i = 0; i < scans; ++i) {
-    const double t = static_cast<double>(i) / kSweepsPerSecond;
-    truth.T_map_body.push_back(geometry::Stamp::from_seconds(t), T_start_map * drive.pose(t));
-  }
-
-  const auto writer = dataset::write_rawlog(arguments.output, info, truth, {});
+  const bool kitti = is_kitti(arguments);
+  const dataset::RecordingInfo info = describe(simulation, arguments, scans);
+  const dataset::Reference truth{simulation.truth(sweeps), arguments.output,
+                                 "exact truth of the simulation"};
+  const auto writer =
+      kitti ? dataset::write_scan_folder(arguments.output, info, truth, info.rig.sensors[0].label,
+                                         dataset::ScanFolderFormat::kKitti)
+            : dataset::write_rawlog(arguments.output, info, truth, {arguments.gzip_level});
+  GnssTable gnss;
   ProgressBar bar("simulating", scans, "scans");
-  for (std::size_t i = 0; i < scans; ++i) {
-    const double t = static_cast<double>(i) / kSweepsPerSecond;
-    writer->add(std::make_shared<const sensors::LidarScan>(scanner.scan(world, drive, t)));
-    bar.update(i + 1);
-  }
+  std::size_t done = 0;
+  std::size_t points = 0;
+  simulation.run(sweeps, arguments.threads, [&](sensors::Measurement&& measurement) {
+    if (const auto* fix = std::get_if<sensors::GnssFix>(&measurement)) gnss.add(*fix);
+    const auto* scan = std::get_if<std::shared_ptr<const sensors::LidarScan>>(&measurement);
+    if (scan == nullptr) {
+      if (!kitti) writer->add(measurement);
+      return;
+    }
+    points += (*scan)->size();
+    if (kitti) {
+      writer->add(std::make_shared<const sensors::LidarScan>(simulation::in_ring_order(**scan)));
+    } else {
+      writer->add(measurement);
+    }
+    bar.update(++done);
+  });
   writer->commit();
+  files::write_text(name_beside(arguments, "rig.yaml"), simulation.calibration());
+  simulation::WorldDescription resolved = world;
+  files::write_text(name_beside(arguments, "world.yaml"),
+                    config::to_yaml([&](config::Binder& b) { bind(b, resolved); }, true));
+  if (kitti) write_camera_poses(info, truth.T_map_body, name_beside(arguments, "poses.txt"));
+  if (!gnss.empty()) files::write_text(name_beside(arguments, "gnss.csv"), gnss.text());
   bar.finish();
-  fmt::print("{}\n", arguments.output);
+  fmt::print("{}: {} scans of {}, {:.1f} M points, {:.1f} m driven, {} triangles\n",
+             arguments.output, scans, info.rig.sensors[0].lidar->name,
+             static_cast<double>(points) * 1e-6, truth.T_map_body.path_length(),
+             simulation.triangles());
+}
+
+void check(const SimulateArguments& arguments) {
+  if (arguments.list) return;
+  if (arguments.world.empty()) throw CLI::RequiredError("WORLD");
+  if (arguments.output.empty()) throw CLI::RequiredError("--output");
+  const bool named_rawlog = fs::path(arguments.output).extension() == ".rawlog";
+  if (is_kitti(arguments) == named_rawlog) {
+    throw CLI::ValidationError("--output", "a rawlog ends in .rawlog, a KITTI folder does not");
+  }
+  if (arguments.last < arguments.first) {
+    throw CLI::ValidationError("--last", "is before --first");
+  }
 }
 
 }  // namespace
@@ -88,32 +235,49 @@ void simulate(const SimulateArguments& arguments) {
 void add_simulate(CLI::App& app) {
   auto arguments = std::make_shared<SimulateArguments>();
   CLI::App* command = app.add_subcommand(
-      "simulate", "drive a lidar through a made-up place; write a rawlog with the exact truth");
-  command->add_option("WORLD", arguments->world, "street, or tunnel (no motion visible along it)")
-      ->required()
-      ->check(CLI::IsMember({"street", "tunnel"}));
-  command->add_option("-o,--output", arguments->output, "rawlog to write")
-      ->required()
-      ->type_name("FILE.rawlog");
-  command->add_option("--length", arguments->length_m, "metres along the street")
-      ->check(CLI::Range(1.0, 100000.0))
+      "simulate",
+      "drive a lidar, an IMU, wheels and GNSS through a made-up place; write the recording with "
+      "its exact truth");
+  command->add_option("WORLD", arguments->world, "a world of --list, or a file like theirs");
+  command->add_option("-o,--output", arguments->output, "X.rawlog, or a folder for KITTI's layout")
+      ->type_name("PATH");
+  command->add_flag("--list", arguments->list, "list the worlds and the sensors");
+  command->add_option("--format", arguments->format, "rawlog or kitti, if the name does not tell")
+      ->check(CLI::IsMember({"rawlog", "kitti"}))
+      ->option_text("NAME");
+  command->add_option("--sensor", arguments->sensor, "lidar of --list, or a file like theirs")
+      ->option_text("NAME");
+  command->add_option("--first", arguments->first, "first sweep, counted from 0")
+      ->check(CLI::NonNegativeNumber)
+      ->option_text("N");
+  command->add_option("--last", arguments->last, "last sweep, included")
+      ->check(CLI::NonNegativeNumber)
+      ->option_text("N");
+  command->add_option("--duration", arguments->duration_s, "seconds from the first sweep on")
+      ->check(CLI::PositiveNumber)
+      ->option_text("S");
+  command->add_option("--seed", arguments->seed, "of the place, the road and all noise")
+      ->check(CLI::NonNegativeNumber)
+      ->option_text("N");
+  command->add_option("--set", arguments->overrides, "any key of the world: place.vehicles=6")
+      ->option_text("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--threads", arguments->threads, "threads; the result does not depend on it")
+      ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  command->add_option("--speed", arguments->speed_mps, "metres a second")
-      ->check(CLI::Range(0.1, 60.0))
+  command
+      ->add_option("--gzip", arguments->gzip_level,
+                   "compression of a rawlog: 0 is quick, 1 halves the file")
+      ->check(CLI::Range(0, 9))
       ->capture_default_str();
-  command->add_option("--noise", arguments->noise_m, "standard deviation of ranges, metres")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  command->add_option("--seed", arguments->seed, "of the houses and the noise")
-      ->capture_default_str();
-  command->footer(
-      "Example:\n"
-      "  traverse simulate street -o street.rawlog && traverse run street.rawlog -o RUN");
+  command->footer(kExamples);
   command->callback([arguments] {
-    if (std::filesystem::path(arguments->output).extension() != ".rawlog") {
-      throw CLI::ValidationError("--output", "must end in .rawlog");
+    check(*arguments);
+    if (arguments->list) {
+      list(find_installed_files().share);
+    } else {
+      simulate(*arguments);
     }
-    simulate(*arguments);
   });
 }
 

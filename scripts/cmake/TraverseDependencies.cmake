@@ -1,6 +1,7 @@
 # Every library that Traverse takes from Debian 12, found once. scripts/dependencies lists the packages.
 find_package(CLI11 REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(embree 3 REQUIRED)
 find_package(fmt REQUIRED)
 find_package(liblzf REQUIRED)
 find_package(mrpt-maps REQUIRED)
@@ -14,6 +15,8 @@ find_package(nanoflann REQUIRED)
 find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc imgcodecs freetype)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
+pkg_check_modules(GEOGRAPHICLIB REQUIRED IMPORTED_TARGET geographiclib)
+find_path(TRAVERSE_RANDOM123 Random123/philox.h REQUIRED)  # headers only, on the system's path
 find_package(Threads REQUIRED)
 find_package(TBB REQUIRED)
 find_package(tsl-robin-map REQUIRED)

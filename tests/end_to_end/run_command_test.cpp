@@ -28,13 +28,13 @@ using testing::ProgramResult;
 using testing::run_program;
 using testing::TemporaryFolder;
 
-/// A simulated street and a run of it, made once for all tests of the suite.
+/// A simulated stretch of street and a run of it, made once for all tests of the suite.
 class RunCommand : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder();
     const ProgramResult simulated =
-        run_program("simulate street --length 12 -o " + file("street.rawlog"));
+        run_program("simulate town_short --first 80 --duration 1.3 -o " + file("street.rawlog"));
     ASSERT_EQ(simulated.status, 0) << simulated.messages;
     result_ = new ProgramResult(run_program("run " + recording() + " -o " + file("run")));
   }
@@ -196,7 +196,9 @@ TEST_F(RunCommand, ALogGetsPlainLines) {
 }
 
 TEST_F(RunCommand, ATunnelIsReportedAsDegenerate) {
-  ASSERT_EQ(run_program("simulate tunnel --length 10 -o " + file("tunnel.rawlog")).status, 0);
+  ASSERT_EQ(
+      run_program("simulate tunnel --first 200 --duration 1.1 -o " + file("tunnel.rawlog")).status,
+      0);
   const ProgramResult result =
       run_program("run " + file("tunnel.rawlog") + " -o " + file("tunnel"));
   ASSERT_EQ(result.status, 0) << result.messages;

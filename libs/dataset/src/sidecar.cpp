@@ -51,7 +51,7 @@ void write_sidecar(const Sidecar& sidecar, const SidecarFiles& files) {
       false);
   if (sidecar.reference) write_tum(files.reference, *sidecar.reference);
   if (sidecar.T_camera_lidar) write_calibration(files.calibration, *sidecar.T_camera_lidar);
-  files::write_text(files.statements, "# Written by traverse convert.\n" + yaml);
+  files::write_text(files.statements, "# Written by traverse beside the recording.\n" + yaml);
 }
 
 sensors::LidarProfile stored_in_data(sensors::LidarProfile profile, bool has_rings,

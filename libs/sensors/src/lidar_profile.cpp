@@ -8,6 +8,28 @@ namespace traverse::sensors {
 
 using config::Range;
 
+namespace {
+
+void bind(config::Binder& b, LidarFiring& f) {
+  b.number("period_us", f.period_us, Range::non_negative(),
+           "from one firing of all beams to the next; 0 if unknown");
+  b.numbers("times_us", f.times_us, "of each beam after the firing's start, ring 0 first");
+  b.numbers("azimuth_offsets_deg", f.azimuth_offsets_deg,
+            "of each beam, counterclockwise, ring 0 first");
+}
+
+void bind(config::Binder& b, LidarNoise& n) {
+  b.number("range_m", n.range_m, Range::between(0, 1), "standard deviation of a range");
+  b.number("resolution_m", n.resolution_m, Range::between(0, 1), "ranges are multiples of this");
+  b.number("reach_at_10_percent_m", n.reach_at_10_percent_m, Range::positive(),
+           "farthest surface of 10 % reflectivity that is seen");
+  b.number("dropout_share", n.dropout_share, Range::between(0, 1), "of returns that are lost");
+  b.number("intensity_share", n.intensity_share, Range::between(0, 1),
+           "standard deviation of an intensity, relative");
+}
+
+}  // namespace
+
 void bind(config::Binder& b, LidarProfile& p) {
   static constexpr std::array<std::pair<std::string_view, RingSource>, 3> kRingSources{
       {{"data", RingSource::kData},
@@ -37,6 +59,10 @@ void bind(config::Binder& b, LidarProfile& p) {
            "share of the sweep that is over at the scan's stamp");
   b.number("vertical_correction_deg", p.vertical_correction_deg, Range::between(-5, 5),
            "added to the elevation of every point");
+  b.group("firing", "when and where the beams fire, for the simulator",
+          [&](config::Binder& group) { bind(group, p.firing); });
+  b.group("noise", "how well it measures, for the simulator",
+          [&](config::Binder& group) { bind(group, p.noise); });
 }
 
 LidarProfile load_lidar_profile(const std::filesystem::path& yaml) {

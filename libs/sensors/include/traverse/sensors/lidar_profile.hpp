@@ -24,6 +24,22 @@ enum class TimeSource {
 
 enum class Rotation { kClockwise, kCounterclockwise };  ///< of the head, seen from above
 
+/// When and where the beams of a spinning lidar fire. Only the simulator needs it.
+struct LidarFiring {
+  double period_us = 0;          ///< from one firing of all beams to the next; 0: unknown
+  std::vector<double> times_us;  ///< of each beam after the firing's start; empty: all at once
+  std::vector<double> azimuth_offsets_deg;  ///< of each beam, counterclockwise; empty: none
+};
+
+/// How well a lidar measures. Only the simulator needs it.
+struct LidarNoise {
+  double range_m = 0.02;              ///< standard deviation of a range
+  double resolution_m = 0.002;        ///< ranges are multiples of this; 0: not rounded
+  double reach_at_10_percent_m = 50;  ///< farthest surface of 10 % reflectivity that is seen
+  double dropout_share = 0.002;       ///< of returns that are lost without a cause
+  double intensity_share = 0.03;      ///< standard deviation of an intensity, relative
+};
+
 /// What must be known of a lidar to use its points. Read from share/sensors/*.yaml.
 struct LidarProfile {
   std::string name = "unknown lidar";
@@ -44,6 +60,9 @@ struct LidarProfile {
   /// Added to every point's elevation angle. KITTI's HDL-64E reads 0.205 degrees low: Deschaud,
   /// "IMLS-SLAM", ICRA 2018, section IV.
   double vertical_correction_deg = 0;
+
+  LidarFiring firing;
+  LidarNoise noise;
 };
 
 void bind(config::Binder& binder, LidarProfile& profile);

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "traverse/sensors/gnss_fix.hpp"
+
+namespace traverse::app {
+
+/// Fixes as a CSV file with what a rawlog has no place for: headings and standard deviations.
+class GnssTable {
+ public:
+  void add(const sensors::GnssFix& fix);
+  bool empty() const { return rows_.empty(); }
+  /// Header and rows; cells of what a fix does not have are empty.
+  std::string text() const;
+
+ private:
+  std::string rows_;
+};
+
+}  // namespace traverse::app

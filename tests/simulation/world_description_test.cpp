@@ -1,0 +1,108 @@
+#include "traverse/simulation/world_description.hpp"
+
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "traverse/files/atomic_file.hpp"
+#include "traverse/files/input_error.hpp"
+
+#include "temporary_folder.hpp"
+
+namespace traverse::simulation {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using testing::TemporaryFolder;
+
+std::string error_of(const std::string& yaml, const std::vector<std::string>& overrides = {}) {
+  const TemporaryFolder folder;
+  files::write_text(folder / "bad.yaml", yaml);
+  try {
+    load_world(folder / "bad.yaml", overrides);
+  } catch (const files::InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(WorldDescription, EveryShippedWorldLoadsAndSaysWhatItIs) {
+  std::size_t worlds = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(TRAVERSE_SHARE_DIR "/worlds")) {
+    const WorldDescription world = load_world(entry.path(), {});
+    EXPECT_FALSE(world.description.empty()) << entry.path();
+    EXPECT_TRUE(std::filesystem::exists(TRAVERSE_SHARE_DIR "/sensors/" + world.sensor + ".yaml"));
+    ++worlds;
+  }
+  EXPECT_GE(worlds, 5U);
+}
+
+TEST(WorldDescription, BadYamlAndUnknownKeysAreToldWithFileAndLine) {
+  EXPECT_THAT(error_of("route:\n  - {"), AllOf(HasSubstr("bad.yaml"), HasSubstr("line 2")));
+  EXPECT_THAT(error_of("name: x\nroute:\n  sped_mps: 3\n"),
+              AllOf(HasSubstr("bad.yaml, line 3"), HasSubstr("route.speed_mps")));
+  EXPECT_THAT(error_of("place: {kind: moon}"), AllOf(HasSubstr("line 1"), HasSubstr("corridor")));
+}
+
+TEST(WorldDescription, ARouteThatCannotBeDrivenIsToldWithFileAndLine) {
+  EXPECT_THAT(
+      error_of("route:\n  waypoints_m: [0, 0, 10, 0, 10, 10]\n  corner_radius_m: 30\n"),
+      AllOf(HasSubstr("bad.yaml, line 3"), HasSubstr("route.corner_radius_m"), HasSubstr("30 m")));
+  EXPECT_THAT(error_of("route: {waypoints_m: [0, 0, 5]}"),
+              AllOf(HasSubstr("line 1"), HasSubstr("3 numbers")));
+  EXPECT_THAT(error_of("name: x\n", {"route.stops_m=[500]"}), HasSubstr("--set route.stops_m"));
+  EXPECT_THAT(error_of("gnss:\n  outages_s: [4, 2]\n"), HasSubstr("line 2"));
+}
+
+TEST(WorldDescription, AnUnknownWorldListsThoseThereAre) {
+  try {
+    find_world("moon", TRAVERSE_SHARE_DIR);
+    FAIL();
+  } catch (const files::InputError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("town_loop"), HasSubstr("'moon'")));
+  }
+}
+
+TEST(Place, TheSameSeedBuildsTheSamePlace) {
+  for (const char* name : {"town_short", "highway", "tunnel", "park", "corridor_loop"}) {
+    const WorldDescription world =
+        load_world(find_world(name, TRAVERSE_SHARE_DIR), {"place.density=0.2"});
+    const Route route(world.route);
+    const Terrain terrain(world.terrain, 1);
+    const Place a = build_place(world.place, route, terrain, 1);
+    const Place b = build_place(world.place, route, terrain, 1);
+    EXPECT_GT(a.still.size(), 1000U) << name;
+    EXPECT_EQ(a.still.corners(), b.still.corners()) << name;
+    EXPECT_EQ(a.movers.size(), static_cast<std::size_t>(world.place.vehicles)) << name;
+    for (const auto& corner : a.still.corners()) ASSERT_TRUE(corner.allFinite()) << name;
+    const Place c = build_place(world.place, route, terrain, 2);
+    EXPECT_NE(a.still.corners(), c.still.corners()) << name;
+  }
+}
+
+TEST(Place, NothingStandsInTheVehiclesWay) {
+  for (const char* name : {"town_loop", "highway", "tunnel", "park", "corridor_loop"}) {
+    const WorldDescription world = load_world(find_world(name, TRAVERSE_SHARE_DIR), {});
+    const Route route(world.route);
+    const Terrain terrain(world.terrain, static_cast<std::uint64_t>(world.seed));
+    const Place place =
+        build_place(world.place, route, terrain, static_cast<std::uint64_t>(world.seed));
+    const RayCaster caster(place.still);
+    const double half_width = world.place.kind == PlaceKind::kCorridor ? 0.4 : 0.9;
+    for (double s = 1; s < route.lap_m(); s += 1) {
+      const double heading = route.heading(s);
+      const Eigen::Vector3d left(-std::sin(heading), std::cos(heading), 0);
+      const Eigen::Vector2d p = route.point(s);
+      const Eigen::Vector3d middle(p.x(), p.y(), terrain.height(p.x(), p.y()) + 0.8);
+      for (const double side : {-1.0, 1.0}) {
+        EXPECT_FALSE(caster.cast({middle, side * left}, half_width).is_hit())
+            << name << " at " << s << " m";
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace traverse::simulation
