@@ -245,8 +245,8 @@ void add_status(CLI::App& batch) {
 
 void add_cancel(CLI::App& batch) {
   auto folder = std::make_shared<std::string>();
-  CLI::App* command =
-      batch.add_subcommand("cancel", "end a batch; what is finished stays, and can be gone on with");
+  CLI::App* command = batch.add_subcommand(
+      "cancel", "end a batch; what is finished stays, and can be gone on with");
   command->add_option("OUT", *folder, "the batch's folder")
       ->required()
       ->check(CLI::ExistingDirectory);
@@ -312,8 +312,9 @@ void add_batch(CLI::App& app) {
   batch->add_option("--executor", arguments->executor, "local, or slurm: one job array")
       ->check(CLI::IsMember({"local", "slurm"}))
       ->capture_default_str();
-  batch->add_option("--jobs", arguments->jobs,
-                    "runs at one time (default: what cores and memory allow)")
+  batch
+      ->add_option("--jobs", arguments->jobs,
+                   "runs at one time (default: what cores and memory allow)")
       ->check(CLI::Range(1, 4096));
   batch->add_option("--shard", arguments->shard, "only the i-th of n parts")->type_name("i/n");
   batch->add_flag("--retry-failed", arguments->retry_failed, "make runs that are not ok again");

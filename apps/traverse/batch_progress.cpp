@@ -74,8 +74,8 @@ double BatchProgress::seconds() const {
 
 /// "12/40 runs, 30 %, 1.9 runs/s, 0:15 left, 1 not ok"
 std::string BatchProgress::total_text(const batch::BatchState& state) const {
-  std::string text = fmt::format("{}/{} runs, {:.0f} %", state.made, state.to_do,
-                                 100 * share_of(state));
+  std::string text =
+      fmt::format("{}/{} runs, {:.0f} %", state.made, state.to_do, 100 * share_of(state));
   if (state.made > 0) {
     const double rate = static_cast<double>(state.made) / seconds();
     text += rate >= 1 ? fmt::format(", {:.1f} runs/s", rate)
@@ -112,8 +112,8 @@ void BatchProgress::began(const batch::BatchState& state) {
 void BatchProgress::finished(const batch::BatchState& state, const batch::Job& job,
                              const batch::Completion& completion) {
   if (completion.outcome != batch::Outcome::kOk) {
-    print_line(fmt::format("{}: {}: {}", job.title(), name_of(completion.outcome),
-                           completion.reason));
+    print_line(
+        fmt::format("{}: {}: {}", job.title(), name_of(completion.outcome), completion.reason));
   }
   if (terminal_) return;
   const int tenths = static_cast<int>(10 * share_of(state));
@@ -137,10 +137,9 @@ void BatchProgress::tick(const batch::BatchState& state,
       ++lines;
       break;
     }
-    const std::string line =
-        fmt::format("  {:>6}  {}  {}",
-                    clock_text(std::chrono::duration<double>(now - job.since).count()),
-                    job.job->title(), last_line(log_in_work(folder_, *job.job)));
+    const std::string line = fmt::format(
+        "  {:>6}  {}  {}", clock_text(std::chrono::duration<double>(now - job.since).count()),
+        job.job->title(), last_line(log_in_work(folder_, *job.job)));
     text += line.substr(0, width - 1) + "\n";
     ++lines;
   }

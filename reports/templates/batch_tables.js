@@ -27,12 +27,18 @@ function mean(values) {
   return known.length ? known.reduce((a, b) => a + b, 0) / known.length : null;
 }
 
-// A table from columns {head, name?, numeric?, lower?} and rows of cells: a value, or
-// {value, html, title, className}. Options: sortable, filter, best (mark the best of each column),
-// atFirst (rows shown before "show all").
-function drawTable(place, columns, rows, options = {}) {
+// A table from columns {head, name?, numeric?, count?, lower?} and rows {cells, summary?} of cells: a
+// value, or {value, html, className}. Options: best (mark the best of each column), atFirst (rows
+// shown before "show all"). Columns of figures that no row has are left out and named below.
+function drawTable(place, allColumns, allRows, options = {}) {
+  const held = (cell) => (cell !== null && typeof cell === "object" ? cell.value : cell);
+  const kept = allColumns.map((column, k) => k).filter((k) => !allColumns[k].numeric || allRows.length === 0
+    || allRows.some((row) => held(row.cells[k]) !== null));
+  const columns = kept.map((k) => allColumns[k]);
+  const rows = allRows.map((row) => ({ ...row, cells: kept.map((k) => row.cells[k]) }));
+  const empty = allColumns.filter((column) => !columns.includes(column)).map((column) => column.head);
   const state = { sort: -1, ascending: true, filter: "", all: false };
-  const value = (cell) => (cell !== null && typeof cell === "object" ? cell.value : cell);
+  const value = held;
   const best = columns.map((column, k) => {
     if (!options.best || !column.lower || rows.length < 2) return undefined;
     const known = rows.filter((row) => !row.summary).map((row) => value(row.cells[k])).filter((v) => Number.isFinite(v));
@@ -41,15 +47,16 @@ function drawTable(place, columns, rows, options = {}) {
 
   function cellHtml(cell, k, row) {
     const column = columns[k];
-    const held = value(cell);
+    const figure = value(cell);
     const classes = [];
     if (column.numeric) classes.push("n");
     if (column.name) classes.push("name");
     if (cell !== null && typeof cell === "object" && cell.className) classes.push(cell.className);
-    if (best[k] !== undefined && held === best[k] && !row.summary) classes.push("best");
-    const full = column.numeric && Number.isFinite(held) ? ` title="${held}"` : "";
+    if (best[k] !== undefined && figure === best[k] && !row.summary) classes.push("best");
+    const full = column.numeric && Number.isFinite(figure) ? ` title="${figure}"` : "";
     const html = cell !== null && typeof cell === "object" && cell.html !== undefined ? cell.html
-      : column.numeric ? shortNumber(held) : escapeHtml(held ?? "–");
+      : column.count ? escapeHtml(figure ?? "–")
+      : column.numeric ? shortNumber(figure) : escapeHtml(figure ?? "–");
     return `<td${classes.length ? ` class="${classes.join(" ")}"` : ""}${full}>${html}</td>`;
   }
 
@@ -89,7 +96,7 @@ function drawTable(place, columns, rows, options = {}) {
 
   place.innerHTML = `<div class="tools"><input type="search" placeholder="Filter" aria-label="Filter the rows"><button type="button" class="csv">CSV</button><button type="button" class="more">Show all</button><span class="count"></span></div>
     <div class="scroll"><table class="data"><thead><tr>${columns.map((column) =>
-      `<th scope="col" class="${column.numeric ? "n " : ""}${column.name ? "name" : ""}"><button type="button">${escapeHtml(column.head)}</button></th>`).join("")}</tr></thead><tbody></tbody></table></div>`;
+      `<th scope="col" class="${column.numeric ? "n " : ""}${column.name ? "name" : ""}"><button type="button">${escapeHtml(column.head)}</button></th>`).join("")}</tr></thead><tbody></tbody></table></div>${empty.length ? `<p class="how">Not defined for any of these runs: ${escapeHtml(empty.join(", "))}.</p>` : ""}`;
   const head = place.querySelector("thead tr");
   const body = place.querySelector("tbody");
   const count = place.querySelector(".count");
@@ -139,8 +146,8 @@ function drawLeaderboard() {
     cells: [i + 1, variant.name, { value: variant.ok, html: `${variant.ok}/${variant.runs}` },
       ...(data.budgets.length ? [variant.over_budget] : []), ...columns.map((column) => column.of(variant.means, variant.kitti))],
   }));
-  drawTable(place("leaderboard"), [{ head: "#", numeric: true }, { head: "Pipeline", name: true }, { head: "Runs ok", numeric: true },
-    ...(data.budgets.length ? [{ head: "Over budget", numeric: true }] : []), ...columns], rows, { best: true, atFirst: RUNS_AT_FIRST });
+  drawTable(place("leaderboard"), [{ head: "#", numeric: true, count: true }, { head: "Pipeline", name: true }, { head: "Runs ok", numeric: true },
+    ...(data.budgets.length ? [{ head: "Over budget", numeric: true, count: true }] : []), ...columns], rows, { best: true, atFirst: RUNS_AT_FIRST });
 }
 
 // Runs that are ok of a recording and a variant; both null for all.
@@ -198,19 +205,21 @@ function drawRuns() {
       { value: run.folder ?? "", html: run.folder === null ? "–"
         : `<a href="${escapeHtml(run.folder)}/${run.report ? "report.html" : "run.json"}">${run.report ? "report" : "run.json"}</a> · <a href="${escapeHtml(run.folder)}/log.txt">log</a>` }],
   }));
-  drawTable(place("runs"), [{ head: "Recording", name: true }, { head: "Pipeline", name: true }, { head: "Repeat", numeric: true }, { head: "Outcome" },
+  drawTable(place("runs"), [{ head: "Recording", name: true }, { head: "Pipeline", name: true }, { head: "Repeat", numeric: true, count: true }, { head: "Outcome" },
     ...data.metrics.map((metric) => ({ head: withUnit(metric), numeric: true, lower: metric.lower })), { head: "Files" }], rows, { atFirst: RUNS_AT_FIRST });
 }
 
 function drawBaseline() {
   if (!data.baseline) return;
   const verdict = (word) => ({ value: word, html: `<span class="verdict ${word.replace(" ", "-")}">${word}</span>` });
-  const rows = data.baseline.ok.map((change) => ({ cells: [change.variant, "Runs ok", change.runs, change.before, change.now, null, "–", verdict(change.verdict)] }));
+  const rows = data.baseline.ok.map((change) => ({ cells: [change.variant, "Runs ok", change.runs, { value: change.before, html: change.before }, { value: change.now, html: change.now }, null, "–", verdict(change.verdict)] }));
   for (const change of data.baseline.changes) {
     const metric = data.metrics[change.metric];
     const interval = change.interval ? `${shortNumber(change.interval[0])} to ${shortNumber(change.interval[1])}` : "–";
     rows.push({ cells: [change.variant, withUnit(metric), change.recordings, change.before, change.now, change.percent, interval, verdict(change.verdict)] });
   }
-  drawTable(place("baseline"), [{ head: "Pipeline", name: true }, { head: "Metric" }, { head: "Recordings (runs)", numeric: true }, { head: "Before", numeric: true },
+  const order = ["regressed", "improved", "no change"];
+  rows.sort((a, b) => order.indexOf(a.cells[7].value) - order.indexOf(b.cells[7].value));
+  drawTable(place("baseline"), [{ head: "Pipeline", name: true }, { head: "Metric" }, { head: "Recordings (runs)", numeric: true, count: true }, { head: "Before", numeric: true },
     { head: "Now", numeric: true }, { head: "Change [%]", numeric: true }, { head: "95 % interval [%]" }, { head: "Verdict" }], rows, { atFirst: RUNS_AT_FIRST });
 }

@@ -1,10 +1,9 @@
 #include "traverse/batch/baseline.hpp"
 
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
-#include <tuple>
 
-#include <boost/math/distributions/students_t.hpp>
 #include <nlohmann/json.hpp>
 
 #include "traverse/batch/metric.hpp"
@@ -22,53 +21,19 @@ constexpr double kLeastChange = 0.01;
 constexpr double kLeastChangeOfTimes = 0.10;
 constexpr double kConfidence = 0.95;
 
-/// A run of an earlier batch.
-struct EarlierRun {
-  bool ok = false;
-  std::map<std::string, double> metrics;
-};
-/// By recording, variant and repeat.
-using RunKey = std::tuple<std::string, std::string, int>;
-using EarlierRuns = std::map<RunKey, EarlierRun>;
-
-EarlierRuns read_baseline(const fs::path& file) {
-  EarlierRuns runs;
-  try {
-    const json document = json::parse(files::read_text(file));
-    for (const json& run : document.at("runs")) {
-      if (run.at("outcome").is_null()) continue;
-      EarlierRun& earlier = runs[{run.at("recording"), run.at("variant"), run.at("repeat")}];
-      earlier.ok = run.at("outcome") == "ok";
-      earlier.metrics = run.at("metrics").get<std::map<std::string, double>>();
-    }
-  } catch (const json::exception& error) {
-    throw files::InputError(file, files::Place::whole_file(), "the results.json of a batch",
-                            error.what());
-  }
-  return runs;
-}
-
 /// Values of both batches of one recording, whose repeats are averaged.
 struct Pair {
   double before = 0;
   double now = 0;
   double count = 0;
+  void add(double value_before, double value_now) {
+    before += value_before;
+    now += value_now;
+    ++count;
+  }
 };
 /// By variant and metric, then by recording.
 using Pairs = std::map<std::pair<std::string, std::string>, std::map<std::string, Pair>>;
-
-void add_pairs(const Job& job, const EarlierRun& earlier, const Completion& completion,
-               const std::vector<std::string>& metrics, Pairs& pairs) {
-  for (const std::string& metric : metrics) {
-    const auto now = value_of(completion, metric);
-    const auto before = earlier.metrics.find(metric);
-    if (!now || before == earlier.metrics.end()) continue;
-    Pair& pair = pairs[{job.variant(), metric}][job.recording];
-    pair.before += before->second;
-    pair.now += *now;
-    ++pair.count;
-  }
-}
 
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -85,13 +50,28 @@ double half_interval(const std::vector<double>& values) {
   return standard_error * boost::math::quantile(distribution, 0.5 + kConfidence / 2);
 }
 
+std::vector<std::pair<double, double>> means(const std::map<std::string, Pair>& recordings) {
+  std::vector<std::pair<double, double>> values;
+  for (const auto& [recording, pair] : recordings) {
+    values.emplace_back(pair.before / pair.count, pair.now / pair.count);
+  }
+  return values;
+}
+
+OkChange judged(OkChange change) {
+  if (change.now > change.before) change.verdict = Verdict::kImproved;
+  if (change.now < change.before) change.verdict = Verdict::kRegressed;
+  return change;
+}
+
 }  // namespace
 
 const char* const kBaselineRule =
     "Runs are paired by recording, pipeline and settings; repeats are averaged. A metric has "
     "improved or regressed when its mean over the recordings changed by at least 1 % (times and "
     "memory: 10 %) and, with two recordings and more, the 95 % interval of the mean difference "
-    "(Student's t, paired) leaves out zero; else there is no change. With one recording there is no "
+    "(Student's t, paired) leaves out zero; else there is no change. With one recording there is "
+    "no "
     "interval, only the size of the change.";
 
 std::string_view name_of(Verdict verdict) {
@@ -139,50 +119,62 @@ Change judge_change(const std::vector<std::pair<double, double>>& before_and_now
   return change;
 }
 
-BaselineComparison compare_with_baseline(const fs::path& baseline, const Results& results,
-                                         const std::vector<std::string>& metrics) {
+Baseline::Baseline(const fs::path& baseline)
+    : file_(fs::is_directory(baseline) ? baseline / "results.json" : baseline) {
+  try {
+    const json document = json::parse(files::read_text(file_));
+    for (const json& run : document.at("runs")) {
+      if (run.at("outcome").is_null()) continue;
+      Run& earlier = runs_[{run.at("recording"), run.at("variant"), run.at("repeat")}];
+      earlier.ok = run.at("outcome") == "ok";
+      earlier.metrics = run.at("metrics").get<std::map<std::string, double>>();
+    }
+  } catch (const json::exception& error) {
+    throw files::InputError(file_, files::Place::whole_file(), "the results.json of a batch",
+                            error.what());
+  }
+}
+
+BaselineComparison Baseline::compare(const Results& results,
+                                     const std::vector<std::string>& metrics) const {
   BaselineComparison comparison;
-  const fs::path file = fs::is_directory(baseline) ? baseline / "results.json" : baseline;
-  comparison.source = file.string();
-  const EarlierRuns earlier_runs = read_baseline(file);
+  comparison.source = file_.string();
   Pairs pairs;
   std::map<std::string, OkChange> ok;
   std::vector<std::string> order;
   for (const Job& job : results.jobs()) {
     const Completion* completion = results.find(job);
     if (completion == nullptr) continue;
-    const auto earlier = earlier_runs.find({job.recording, job.variant(), job.repeat});
-    if (earlier == earlier_runs.end()) {
+    const auto found = runs_.find({job.recording, job.variant(), job.repeat});
+    if (found == runs_.end()) {
       ++comparison.unmatched;
       continue;
     }
-    const auto [found, is_new] = ok.try_emplace(job.variant(), OkChange{.variant = job.variant()});
+    const Run& earlier = found->second;
+    const auto [change, is_new] = ok.try_emplace(job.variant(), OkChange{.variant = job.variant()});
     if (is_new) order.push_back(job.variant());
-    ++found->second.runs;
-    found->second.before += earlier->second.ok ? 1 : 0;
-    found->second.now += completion->outcome == Outcome::kOk ? 1 : 0;
-    if (earlier->second.ok && completion->outcome == Outcome::kOk) {
-      add_pairs(job, earlier->second, *completion, metrics, pairs);
+    const bool is_ok = completion->outcome == Outcome::kOk;
+    ++change->second.runs;
+    change->second.before += earlier.ok ? 1 : 0;
+    change->second.now += is_ok ? 1 : 0;
+    if (!earlier.ok || !is_ok) continue;
+    for (const std::string& metric : metrics) {
+      const auto now = value_of(*completion, metric);
+      const auto before = earlier.metrics.find(metric);
+      if (!now || before == earlier.metrics.end()) continue;
+      pairs[{job.variant(), metric}][job.recording].add(before->second, *now);
     }
   }
   for (const std::string& variant : order) {
-    OkChange& change = ok.at(variant);
-    if (change.now != change.before) {
-      change.verdict = change.now > change.before ? Verdict::kImproved : Verdict::kRegressed;
-    }
-    comparison.ok.push_back(change);
+    comparison.ok.push_back(judged(ok.at(variant)));
     for (const std::string& metric : metrics) {
       const auto found = pairs.find({variant, metric});
       const Metric* known = find_metric(metric);
       if (found == pairs.end() || known == nullptr || !known->lower_is_better) continue;
-      std::vector<std::pair<double, double>> values;
-      for (const auto& [recording, pair] : found->second) {
-        values.emplace_back(pair.before / pair.count, pair.now / pair.count);
-      }
-      Change judged = judge_change(values, known->is_measured_time);
-      judged.variant = variant;
-      judged.metric = metric;
-      comparison.changes.push_back(std::move(judged));
+      Change change = judge_change(means(found->second), known->is_measured_time);
+      change.variant = variant;
+      change.metric = metric;
+      comparison.changes.push_back(std::move(change));
     }
   }
   return comparison;

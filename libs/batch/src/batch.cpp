@@ -26,33 +26,33 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 /// Results are written anew at most this often, and never so often that writing takes more than a
-/// fiftieth of the time.
+/// hundredth of the time.
 constexpr std::chrono::seconds kWriteEvery{5};
-constexpr int kWritingShare = 50;
+constexpr int kWritingShare = 100;
 
 /// Writes what came out so far.
 class ResultWriter {
  public:
   ResultWriter(const Plan& plan, const BatchFolder& folder, const BatchOptions& options,
                const Results& results)
-      : plan_(plan), folder_(folder), options_(options), results_(results) {}
+      : plan_(plan), folder_(folder), options_(options), results_(results) {
+    if (!options.baseline.empty()) baseline_.emplace(options.baseline);
+  }
 
   void write() {
     const auto began = Clock::now();
     const auto variants = summarise(results_, plan_.budgets, plan_.metrics.front());
     std::optional<BaselineComparison> baseline;
-    if (!options_.baseline.empty()) {
-      baseline = compare_with_baseline(options_.baseline, results_, plan_.metrics);
-    }
+    if (baseline_) baseline = baseline_->compare(results_, plan_.metrics);
     write_csv(folder_.results_csv(), results_);
     write_json(folder_.results_json(), plan_, results_);
     files::write_text(folder_.leaderboard_tex(), leaderboard_latex(variants, plan_.metrics));
-    files::write_text(folder_.report(),
-                      batch_page({plan_, results_, variants, baseline, options_.command},
-                                 options_.templates));
+    files::write_text(
+        folder_.report(),
+        batch_page({plan_, results_, variants, baseline, options_.command}, options_.templates));
     regressed_ = baseline ? count_regressions(*baseline) : 0;
-    next_ = Clock::now() + std::max<Clock::duration>(kWriteEvery,
-                                                     kWritingShare * (Clock::now() - began));
+    next_ = Clock::now() +
+            std::max<Clock::duration>(kWriteEvery, kWritingShare * (Clock::now() - began));
   }
 
   void write_now_and_then() {
@@ -73,6 +73,7 @@ class ResultWriter {
   const BatchFolder& folder_;
   const BatchOptions& options_;
   const Results& results_;
+  std::optional<Baseline> baseline_;
   Clock::time_point next_ = Clock::now() + kWriteEvery;
   std::size_t regressed_ = 0;
 };
@@ -141,9 +142,8 @@ BatchEnd run_batch(Plan plan, const BatchFolder& folder, const BatchOptions& opt
   files::write_text(folder.plan(), plan.text);
 
   const std::string program = program_id(options.program, options.share);
-  make_recordings(plan, folder, options.program, program, stop, [&](const std::string& name) {
-    observer.preparing("making " + name);
-  });
+  make_recordings(plan, folder, options.program, program, stop,
+                  [&](const std::string& name) { observer.preparing("making " + name); });
   if (stop) return {.stopped = true};
   const RecordingDigests digests = digest_recordings(
       plan, folder, [&](const std::string& name) { observer.preparing("reading " + name); });
@@ -159,11 +159,11 @@ BatchEnd run_batch(Plan plan, const BatchFolder& folder, const BatchOptions& opt
     for (const Job& job : jobs) discard(folder, job);
   }
 
+  ResultWriter writer(plan, folder, options, results);
   StateKeeper keeper(results, jobs.size());
   observer.began(keeper.state());
   journal.began(fmt::format("{}: {} runs to make of {}", describe(plan), jobs.size(),
                             keeper.state().distinct));
-  ResultWriter writer(plan, folder, options, results);
   ExecutorEvents events;
   events.finished = [&](const Job& job, const Completion& completion) {
     results.add(completion);

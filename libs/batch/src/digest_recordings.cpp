@@ -29,8 +29,8 @@ void add_below(const fs::path& folder, const std::string& prefix, std::vector<Na
   const auto options = fs::directory_options::follow_directory_symlink;
   for (const auto& entry : fs::recursive_directory_iterator(folder, options)) {
     if (!entry.is_regular_file()) continue;
-    files.push_back({prefix + entry.path().lexically_relative(folder).generic_string(),
-                     entry.path()});
+    files.push_back(
+        {prefix + entry.path().lexically_relative(folder).generic_string(), entry.path()});
   }
 }
 

@@ -125,9 +125,9 @@ void judge(const Job& job, const ProcessEnd& end, bool memory_ran_out, Completio
 void add_results(const fs::path& work, Completion& completion) {
   const pipeline::RunFolder run{work};
   completion.metrics = read_metrics(work);
-  for (const auto& [name, value] : {MetricValue{"wall_s", completion.wall_s},
-                                    MetricValue{"cpu_s", completion.cpu_s},
-                                    MetricValue{"peak_memory_mb", completion.peak_memory_mb}}) {
+  for (const auto& [name, value] :
+       {MetricValue{"wall_s", completion.wall_s}, MetricValue{"cpu_s", completion.cpu_s},
+        MetricValue{"peak_memory_mb", completion.peak_memory_mb}}) {
     completion.metrics.emplace_back(name, value);
   }
   completion.has_report = fs::is_regular_file(run.report());

@@ -135,8 +135,8 @@ std::vector<Job> make_jobs(const Plan& plan, const RecordingDigests& recordings,
     for (const Variant& variant : variants) {
       for (int repeat = 1; repeat <= plan.repeats; ++repeat) {
         Job job;
-        job.identity = identity_of(plan, recording, recordings.at(recording.name), variant, repeat,
-                                   program);
+        job.identity =
+            identity_of(plan, recording, recordings.at(recording.name), variant, repeat, program);
         job.id = files::sha256_of_text(job.identity);
         job.recording = recording.name;
         job.pipeline = variant.pipeline.name;

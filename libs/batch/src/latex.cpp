@@ -47,7 +47,8 @@ struct Column {
 };
 
 Column mean_column(const std::vector<VariantSummary>& variants, const Metric& metric) {
-  Column column{metric.title + (metric.unit.empty() ? "" : " [" + metric.unit + "]"), {},
+  Column column{metric.title + (metric.unit.empty() ? "" : " [" + metric.unit + "]"),
+                {},
                 metric.lower_is_better};
   for (const VariantSummary& variant : variants) {
     const auto mean = variant.means.find(metric.key);
@@ -58,7 +59,7 @@ Column mean_column(const std::vector<VariantSummary>& variants, const Metric& me
 }
 
 Column kitti_column(const std::vector<VariantSummary>& variants, const std::string& head,
-                    double KittiAverages::* average) {
+                    double KittiAverages::*average) {
   Column column{head, {}, true};
   for (const VariantSummary& variant : variants) {
     column.values.push_back(variant.kitti ? (*variant.kitti).*average

@@ -102,9 +102,10 @@ int concurrent_runs(const RunLimits& limits) {
 void check_this_machine(const Plan& plan) {
   const auto cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   if (plan.limits.threads > cores) {
-    throw plan_error(plan.threads_origin,
-                     fmt::format("at most the {} cores of this machine for 'limits.threads'", cores),
-                     std::to_string(plan.limits.threads));
+    throw plan_error(
+        plan.threads_origin,
+        fmt::format("at most the {} cores of this machine for 'limits.threads'", cores),
+        std::to_string(plan.limits.threads));
   }
   const double memory = memory_mb("MemTotal");
   if (plan.limits.memory_mb > memory) {

@@ -24,12 +24,11 @@ BatchLock::BatchLock(const std::filesystem::path& file)
     const int error = errno;
     ::close(descriptor_);
     if (error != EWOULDBLOCK) throw files::OutputError(file, std::strerror(error));
-    throw std::runtime_error(
-        fmt::format("{}: another batch is at work here: {}", file.parent_path().string(),
-                    files::read_text(file)));
+    throw std::runtime_error(fmt::format("{}: another batch is at work here: {}",
+                                         file.parent_path().string(), files::read_text(file)));
   }
-  const std::string owner = fmt::format("process {} on {} since {}", ::getpid(), host_name(),
-                                        pipeline::utc_now());
+  const std::string owner =
+      fmt::format("process {} on {} since {}", ::getpid(), host_name(), pipeline::utc_now());
   if (::ftruncate(descriptor_, 0) != 0 ||
       ::write(descriptor_, owner.data(), owner.size()) != static_cast<ssize_t>(owner.size())) {
     const int error = errno;

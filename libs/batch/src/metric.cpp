@@ -66,28 +66,27 @@ std::vector<Metric> make_metrics() {
       }
     }
   }
-  const std::vector<Metric> others{
-      {"kitti_translation_percent", "KITTI drift", "%"},
-      {"kitti_rotation_deg_per_m", "KITTI rotation", "deg/m"},
-      {"kitti_segments", "KITTI segments", "", false},
-      {"end_error_m", "End error", "m"},
-      {"end_error_percent", "End error", "%"},
-      {"end_rotation_deg", "End rotation", "deg"},
-      {"path_estimate_m", "Path, estimate", "m", false},
-      {"path_reference_m", "Path, reference", "m", false},
-      {"pairs", "Pairs", "", false},
-      {"mme", "Map entropy", "nats"},
-      {"mpv_m", "Plane deviation", "m"},
-      {"frames_used", "Frames used", "", false},
-      {"frames_skipped", "Records skipped", ""},
-      {"map_points", "Map points", "", false},
-      {"frame_median_ms", "Time a frame", "ms", true, true},
-      {"frame_p95_ms", "Time a frame, 95 %", "ms", true, true},
-      {"frame_max_ms", "Time a frame, most", "ms", true, true},
-      {"frames_total_ms", "Time of all frames", "ms", true, true},
-      {"wall_s", "Wall time", "s", true, true},
-      {"cpu_s", "CPU time", "s", true, true},
-      {"peak_memory_mb", "Memory", "MB", true, true}};
+  const std::vector<Metric> others{{"kitti_translation_percent", "KITTI drift", "%"},
+                                   {"kitti_rotation_deg_per_m", "KITTI rotation", "deg/m"},
+                                   {"kitti_segments", "KITTI segments", "", false},
+                                   {"end_error_m", "End error", "m"},
+                                   {"end_error_percent", "End error", "%"},
+                                   {"end_rotation_deg", "End rotation", "deg"},
+                                   {"path_estimate_m", "Path, estimate", "m", false},
+                                   {"path_reference_m", "Path, reference", "m", false},
+                                   {"pairs", "Pairs", "", false},
+                                   {"mme", "Map entropy", "nats"},
+                                   {"mpv_m", "Plane deviation", "m"},
+                                   {"frames_used", "Frames used", "", false},
+                                   {"frames_skipped", "Records skipped", ""},
+                                   {"map_points", "Map points", "", false},
+                                   {"frame_median_ms", "Time a frame", "ms", true, true},
+                                   {"frame_p95_ms", "Time a frame, 95 %", "ms", true, true},
+                                   {"frame_max_ms", "Time a frame, most", "ms", true, true},
+                                   {"frames_total_ms", "Time of all frames", "ms", true, true},
+                                   {"wall_s", "Wall time", "s", true, true},
+                                   {"cpu_s", "CPU time", "s", true, true},
+                                   {"peak_memory_mb", "Memory", "MB", true, true}};
   metrics.insert(metrics.end(), others.begin(), others.end());
   return metrics;
 }
@@ -172,10 +171,11 @@ const Metric* find_metric(std::string_view key) {
 }
 
 std::vector<std::string> default_metrics() {
-  return {"ape_translation_rmse",     "ape_angle_deg_rmse",       "rpe_10f_translation_rmse",
-          "rpe_10f_angle_deg_rmse",   "kitti_translation_percent", "kitti_rotation_deg_per_m",
-          "end_error_percent",        "mme",                       "frame_median_ms",
-          "peak_memory_mb"};
+  return {"ape_translation_rmse",      "ape_angle_deg_rmse",
+          "rpe_10f_translation_rmse",  "rpe_10f_angle_deg_rmse",
+          "kitti_translation_percent", "kitti_rotation_deg_per_m",
+          "end_error_percent",         "mme",
+          "frame_median_ms",           "peak_memory_mb"};
 }
 
 std::vector<std::pair<std::string, double>> read_metrics(const std::filesystem::path& run_folder) {

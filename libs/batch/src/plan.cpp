@@ -38,7 +38,8 @@ void bind(Binder& b, RunLimits& limits) {
 
 void check_metric(const std::string& name, const config::Origin& origin) {
   if (find_metric(name) == nullptr) {
-    throw plan_error(origin, "a metric (`traverse batch metrics` lists them)", files::in_quotes(name));
+    throw plan_error(origin, "a metric (`traverse batch metrics` lists them)",
+                     files::in_quotes(name));
   }
 }
 
@@ -82,14 +83,14 @@ SlurmOptions read_slurm(const Document& document) {
       },
       kOptions);
   const Document options = section.child("options");
-  static const std::set<std::string, std::less<>> kOurs{"array", "output", "error", "job-name",
-                                                        "parsable", "wrap", "wait"};
+  static const std::set<std::string, std::less<>> kOurs{"array",    "output", "error", "job-name",
+                                                        "parsable", "wrap",   "wait"};
   for (const config::Leaf& leaf : options.leaves()) {
     const auto value = options.scalar(leaf.path);
     if (!value) throw plan_error(leaf.origin, "one value for '" + leaf.path + "'", leaf.text);
     if (kOurs.contains(leaf.path)) {
       throw plan_error(leaf.origin, "options that the batch does not set itself",
-                  files::in_quotes(leaf.path));
+                       files::in_quotes(leaf.path));
     }
     slurm.sbatch.push_back("--" + leaf.path + (*value == "true" ? "" : "=" + *value));
   }
@@ -131,7 +132,8 @@ Plan load_plan(const std::filesystem::path& file, const std::filesystem::path& s
 
 std::string describe(const Plan& plan) {
   std::size_t variants = 0;
-  for (const PlannedPipeline& pipeline : plan.pipelines) variants += grid_points(pipeline.grid).size();
+  for (const PlannedPipeline& pipeline : plan.pipelines)
+    variants += grid_points(pipeline.grid).size();
   const std::size_t recordings = plan.recordings.size();
   const std::size_t runs = recordings * variants * static_cast<std::size_t>(plan.repeats);
   const auto noun = [](std::size_t n, const char* word) {

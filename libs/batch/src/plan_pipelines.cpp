@@ -81,12 +81,14 @@ PlannedPipeline read_entry(const Document& document, const std::vector<GridAxis>
   for (GridAxis& axis : read_grid(document.child("grid"))) pipeline.grid.push_back(std::move(axis));
   for (const GridAxis& axis : pipeline.grid) {
     if (!varied.emplace(axis.key, axis.origin).second) {
-      throw plan_error(axis.origin, "each key of the grid once", files::in_quotes(axis.key) + " again");
+      throw plan_error(axis.origin, "each key of the grid once",
+                       files::in_quotes(axis.key) + " again");
     }
   }
   for (const Leaf& leaf : document.child("set").leaves()) {
     if (varied.contains(leaf.path)) {
-      throw plan_error(leaf.origin, "a key that the grid does not vary", files::in_quotes(leaf.path));
+      throw plan_error(leaf.origin, "a key that the grid does not vary",
+                       files::in_quotes(leaf.path));
     }
     pipeline.assignments.push_back(leaf.path + "=" + leaf.text);
   }
@@ -123,14 +125,15 @@ std::vector<PlannedPipeline> read_pipelines(const Document& plan, const fs::path
     const auto [other, is_new] = names.emplace(pipeline.name, pipeline.origin);
     if (!is_new) {
       throw plan_error(pipeline.origin, "names that are there once (give it a 'name')",
-                  fmt::format("{} again (first: line {})", files::in_quotes(pipeline.name),
-                              other->second.line));
+                       fmt::format("{} again (first: line {})", files::in_quotes(pipeline.name),
+                                   other->second.line));
     }
     check_settings(pipeline, share_folder);
     pipelines.push_back(std::move(pipeline));
   }
   if (pipelines.empty()) {
-    throw plan_error(plan.origin("pipelines").value_or(plan.origin()), "at least one pipeline", "none");
+    throw plan_error(plan.origin("pipelines").value_or(plan.origin()), "at least one pipeline",
+                     "none");
   }
   return pipelines;
 }

@@ -1,13 +1,13 @@
 #include "plan_recordings.hpp"
 
 #include <array>
-#include <glob.h>
 #include <map>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
+#include <glob.h>
 
 #include "traverse/files/input_error.hpp"
 
@@ -89,11 +89,11 @@ Entry read_entry(const Document& document, const fs::path& folder) {
       kOthers);
   if (entry.path.empty() == entry.world.empty()) {
     throw plan_error(recording.origin, "either 'path' or 'simulate'",
-                entry.path.empty() ? "neither" : "both");
+                     entry.path.empty() ? "neither" : "both");
   }
   if (recording.last >= 0 && recording.last < recording.first) {
     throw plan_error(*document.origin("last"), "a last frame that is not before the first",
-                std::to_string(recording.last));
+                     std::to_string(recording.last));
   }
   recording.statements_file = existing_file(document, "config", config_file, folder);
   recording.reference = existing_file(document, "reference", reference, folder);
@@ -101,7 +101,7 @@ Entry read_entry(const Document& document, const fs::path& folder) {
   for (const char* key : {"arguments", "seeds"}) {
     if (entry.world.empty() && document.has(key)) {
       throw plan_error(*document.origin(key), fmt::format("'{}' beside 'simulate' only", key),
-                  "a recording that is not made");
+                       "a recording that is not made");
     }
   }
   return entry;
@@ -131,7 +131,8 @@ void add_recorded(const Entry& entry, const fs::path& folder,
     throw plan_error(origin, "a recording that is there", files::in_quotes(pattern.string()));
   }
   if (paths.size() > 1 && !entry.recording.name.empty()) {
-    throw plan_error(origin, "one recording for a name", fmt::format("{} that match", paths.size()));
+    throw plan_error(origin, "one recording for a name",
+                     fmt::format("{} that match", paths.size()));
   }
   for (const fs::path& path : paths) {
     recordings.push_back(entry.recording);
@@ -175,8 +176,8 @@ void check_names(const std::vector<PlannedRecording>& recordings) {
     const auto [other, is_new] = names.emplace(recording.name, &recording);
     if (!is_new) {
       throw plan_error(recording.origin, "names that are there once (give it a 'name')",
-                  fmt::format("{} again (first: line {})", files::in_quotes(recording.name),
-                              other->second->origin.line));
+                       fmt::format("{} again (first: line {})", files::in_quotes(recording.name),
+                                   other->second->origin.line));
     }
   }
 }
@@ -196,7 +197,7 @@ std::vector<PlannedRecording> read_recordings(const Document& plan, const fs::pa
   }
   if (recordings.empty()) {
     throw plan_error(plan.origin("recordings").value_or(plan.origin()), "at least one recording",
-                "none");
+                     "none");
   }
   check_names(recordings);
   return recordings;

@@ -1,12 +1,12 @@
 #include "traverse/batch/report.hpp"
 
 #include <algorithm>
+#include <kainjow/mustache.hpp>
 #include <map>
 #include <tuple>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <kainjow/mustache.hpp>
 
 #include "traverse/batch/batch_folder.hpp"
 #include "traverse/batch/metric.hpp"
@@ -76,7 +76,8 @@ std::string leader(const ReportData& data) {
 }
 
 std::string verdict(const ReportData& data, const Counts& counts) {
-  std::string text = fmt::format("{} of {} ok", counts.ok, plural(data.results.jobs().size(), "run"));
+  std::string text =
+      fmt::format("{} of {} ok", counts.ok, plural(data.results.jobs().size(), "run"));
   text += leader(data);
   if (counts.over_budget > 0) text += fmt::format("; {} over budget", counts.over_budget);
   return text + ".";
@@ -94,13 +95,15 @@ void add_headline(TemplateData& list, const std::string& label, const std::strin
 
 TemplateData headlines(const ReportData& data, const Counts& counts) {
   TemplateData list{TemplateData::type::list};
-  add_headline(list, "Runs ok", std::to_string(counts.ok), fmt::format("of {}", data.results.jobs().size()),
+  add_headline(list, "Runs ok", std::to_string(counts.ok),
+               fmt::format("of {}", data.results.jobs().size()),
                counts.finished < data.results.jobs().size()
                    ? fmt::format("{} not made yet", data.results.jobs().size() - counts.finished)
                    : "all made");
   add_headline(list, "Recordings", std::to_string(data.plan.recordings.size()), "", "of the plan");
-  add_headline(list, "Pipelines", std::to_string(data.variants.size()), "",
-               fmt::format("at every point of the grid, {} of the plan", data.plan.pipelines.size()));
+  add_headline(
+      list, "Pipelines", std::to_string(data.variants.size()), "",
+      fmt::format("at every point of the grid, {} of the plan", data.plan.pipelines.size()));
   add_headline(list, "Work", number_text(counts.run_seconds / 60), "min",
                "wall time of all runs together");
   return list;
@@ -149,7 +152,8 @@ TemplateData notices(const ReportData& data, const Counts& counts) {
     for (const Budget& budget : data.plan.budgets) {
       parts.push_back(fmt::format("{} at most {}", budget.metric, number_text(budget.most)));
     }
-    add_notice(list, counts.over_budget > 0 ? "fail" : "good", counts.over_budget > 0 ? "Fail" : "Pass",
+    add_notice(list, counts.over_budget > 0 ? "fail" : "good",
+               counts.over_budget > 0 ? "Fail" : "Pass",
                fmt::format("{} over budget ({}).", plural(counts.over_budget, "run"),
                            fmt::join(parts, ", ")));
   }
@@ -220,8 +224,8 @@ TemplateData made(const ReportData& data) {
                                      plural(static_cast<std::size_t>(limits.threads), "thread")));
   add("Program", fmt::format("Traverse {} at {}, {}, {}", build.version, build.commit,
                              build.build_type, build.compiler));
-  add("Report made on", fmt::format("{}, {}, {} logical CPUs", host.name, host.cpu,
-                                    host.logical_cpus));
+  add("Report made on",
+      fmt::format("{}, {}, {} logical CPUs", host.name, host.cpu, host.logical_cpus));
   return list;
 }
 
@@ -250,8 +254,8 @@ std::string batch_page(const ReportData& data, const std::filesystem::path& temp
   page.set("headlines", headlines(data, counts));
   page.set("notices", notices(data, counts));
   page.set("rank_title", find_metric(data.plan.metrics.front())->title);
-  page.set("latex_uri", "data:application/x-tex," +
-                            in_uri(leaderboard_latex(data.variants, data.plan.metrics)));
+  page.set("latex_uri",
+           "data:application/x-tex," + in_uri(leaderboard_latex(data.variants, data.plan.metrics)));
   page.set("has_baseline", data.baseline.has_value());
   if (data.baseline) {
     page.set("baseline_source", data.baseline->source);

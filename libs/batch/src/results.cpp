@@ -41,8 +41,7 @@ std::vector<std::string> present_metrics(const Results& results) {
 
 }  // namespace
 
-void Results::load(const BatchFolder& folder,
-                   const std::function<bool(const Completion&)>& again) {
+void Results::load(const BatchFolder& folder, const std::function<bool(const Completion&)>& again) {
   for (const Job& job : distinct(jobs_)) {
     auto completion = find_completion(folder.completion(job.id));
     // The id too: folders are named by its beginning.
@@ -118,9 +117,8 @@ void write_json(const std::filesystem::path& file, const Plan& plan, const Resul
   Json runs = Json::array();
   for (const Job& job : results.jobs()) {
     const Completion* completion = results.find(job);
-    Json run{{"recording", job.recording}, {"pipeline", job.pipeline},
-             {"settings", job.settings},   {"variant", job.variant()},
-             {"repeat", job.repeat},       {"id", job.id}};
+    Json run{{"recording", job.recording}, {"pipeline", job.pipeline}, {"settings", job.settings},
+             {"variant", job.variant()},   {"repeat", job.repeat},     {"id", job.id}};
     if (completion == nullptr) {
       run["outcome"] = nullptr;
       runs.push_back(std::move(run));
@@ -140,9 +138,8 @@ void write_json(const std::filesystem::path& file, const Plan& plan, const Resul
     run["last_lines"] = completion->last_lines;
     runs.push_back(std::move(run));
   }
-  const Json json{{"description", plan.description},
-                  {"metrics", plan.metrics},
-                  {"runs", std::move(runs)}};
+  const Json json{
+      {"description", plan.description}, {"metrics", plan.metrics}, {"runs", std::move(runs)}};
   files::write_text(file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 

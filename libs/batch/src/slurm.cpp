@@ -61,13 +61,16 @@ std::vector<std::string> submission(const Plan& plan, const ExecutionContext& co
                                     std::size_t runs_per_task) {
   const fs::path logs = fs::path(list).replace_extension("");
   std::vector<std::string> words{
-      "sbatch", "--parsable", "--requeue", "--job-name=" + slurm_name(context.folder),
+      "sbatch",
+      "--parsable",
+      "--requeue",
+      "--job-name=" + slurm_name(context.folder),
       fmt::format("--array=0-{}{}", tasks - 1,
                   plan.slurm.most_at_once > 0 ? fmt::format("%{}", plan.slurm.most_at_once) : ""),
       fmt::format("--output={}/%a.log", logs.string()),
       fmt::format("--cpus-per-task={}", plan.limits.threads),
       fmt::format("--time={:.0f}", std::ceil(static_cast<double>(runs_per_task) *
-                                         (plan.limits.time_s + kMargin_s) / 60))};
+                                             (plan.limits.time_s + kMargin_s) / 60))};
   if (plan.limits.memory_mb > 0) {
     words.push_back(fmt::format("--mem={:.0f}M", plan.limits.memory_mb + kMargin_mb));
   }
@@ -81,15 +84,16 @@ std::vector<std::string> submission(const Plan& plan, const ExecutionContext& co
 void submit(const std::vector<Job>& jobs, const Plan& plan, const ExecutionContext& context) {
   const fs::path scratch = context.folder.submissions();
   const std::size_t most_tasks = largest_array(scratch);
-  const std::size_t runs_per_task =
-      plan.slurm.runs_per_task > 0 ? static_cast<std::size_t>(plan.slurm.runs_per_task)
-                                   : (jobs.size() + most_tasks - 1) / most_tasks;
+  const std::size_t runs_per_task = plan.slurm.runs_per_task > 0
+                                        ? static_cast<std::size_t>(plan.slurm.runs_per_task)
+                                        : (jobs.size() + most_tasks - 1) / most_tasks;
   const std::size_t tasks = (jobs.size() + runs_per_task - 1) / runs_per_task;
   // Tasks read their lines when they start: a list is never written over.
   std::string ids;
   for (const Job& job : jobs) ids += job.id;
   const fs::path list =
-      scratch / fmt::format("{}.jsonl", files::sha256_of_text(ids + pipeline::utc_now()).substr(0, 12));
+      scratch /
+      fmt::format("{}.jsonl", files::sha256_of_text(ids + pipeline::utc_now()).substr(0, 12));
   files::make_writable_folder(fs::path(list).replace_extension(""));
   write_jobs(list, jobs);
   const std::string answer =
@@ -175,9 +179,9 @@ Completion lost(const Job& job, const ExecutionContext& context) {
   completion.id = job.id;
   completion.identity = job.identity;
   completion.outcome = Outcome::kCrashed;
-  completion.reason = fmt::format(
-      "no result after {} submissions: see the logs in {}", job.limits.attempts,
-      context.folder.submissions().filename().string());
+  completion.reason =
+      fmt::format("no result after {} submissions: see the logs in {}", job.limits.attempts,
+                  context.folder.submissions().filename().string());
   completion.attempts = job.limits.attempts;
   completion.host = host_name();
   completion.started_utc = pipeline::utc_now();
@@ -230,8 +234,7 @@ void run_on_slurm(const std::vector<Job>& jobs, const Plan& plan, const Executio
 }
 
 void run_task(const SlurmTask& task, const ExecutionContext& context) {
-  for (const Job& job :
-       read_jobs(task.list, task.task * task.runs_per_task, task.runs_per_task)) {
+  for (const Job& job : read_jobs(task.list, task.task * task.runs_per_task, task.runs_per_task)) {
     if (context.stop) return;
     const auto done = find_completion(context.folder.completion(job.id));
     if (!done || is_outdated(*done, job)) execute(job, context);

@@ -5,6 +5,8 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -54,11 +56,23 @@ extern const char* const kBaselineRule;
 Change judge_change(const std::vector<std::pair<double, double>>& before_and_now,
                     bool is_measured_time);
 
-/// Compares with the results of an earlier batch.
-/// \param baseline a batch's folder or its results.json
-/// \throws files::InputError
-BaselineComparison compare_with_baseline(const std::filesystem::path& baseline,
-                                         const Results& results,
-                                         const std::vector<std::string>& metrics);
+/// The results of an earlier batch, read once: the batch that compares with them may write over
+/// them.
+class Baseline {
+ public:
+  /// \param baseline a batch's folder or its results.json
+  /// \throws files::InputError
+  explicit Baseline(const std::filesystem::path& baseline);
+
+  BaselineComparison compare(const Results& results, const std::vector<std::string>& metrics) const;
+
+ private:
+  struct Run {
+    bool ok = false;
+    std::map<std::string, double> metrics;
+  };
+  std::filesystem::path file_;
+  std::map<std::tuple<std::string, std::string, int>, Run> runs_;  ///< recording, variant, repeat
+};
 
 }  // namespace traverse::batch

@@ -32,18 +32,18 @@ struct BatchOptions {
   Executor executor = Executor::kLocal;
   int jobs = 0;  ///< runs at one time; 0: as many as the machine takes
   Shard shard;
-  bool wait = true;         ///< slurm: false submits and returns
-  bool retry_failed = false;  ///< runs that are finished but not ok are made again
+  bool wait = true;                ///< slurm: false submits and returns
+  bool retry_failed = false;       ///< runs that are finished but not ok are made again
   std::filesystem::path baseline;  ///< folder or results.json of an earlier batch, or empty
 };
 
 /// How far a batch is.
 struct BatchState {
-  std::size_t rows = 0;      ///< of the plan
-  std::size_t distinct = 0;  ///< of them, different runs
-  std::size_t finished = 0;  ///< distinct runs that are finished, now or before
-  std::size_t to_do = 0;     ///< distinct runs that this batch has to make
-  std::size_t made = 0;      ///< of them, made
+  std::size_t rows = 0;                     ///< of the plan
+  std::size_t distinct = 0;                 ///< of them, different runs
+  std::size_t finished = 0;                 ///< distinct runs that are finished, now or before
+  std::size_t to_do = 0;                    ///< distinct runs that this batch has to make
+  std::size_t made = 0;                     ///< of them, made
   std::map<Outcome, std::size_t> outcomes;  ///< of the finished rows
 };
 
@@ -55,7 +55,7 @@ struct BatchObserver {
   std::function<void(const BatchState&, const Job&, const Completion&)> finished =
       [](const auto&, const auto&, const auto&) {};
   std::function<void(const BatchState&, const std::vector<RunningJob>&)> tick = [](const auto&,
-                                                                                 const auto&) {};
+                                                                                   const auto&) {};
   const std::atomic<bool>* stop = nullptr;
 };
 

@@ -16,8 +16,8 @@ struct Job {
   std::string identity;  ///< all that the result depends on, as lines of text
   std::string recording;
   std::string pipeline;
-  std::vector<std::string> settings;  ///< "solver.huber_m=0.2", of the grid only
-  int repeat = 1;                     ///< counted from 1
+  std::vector<std::string> settings;   ///< "solver.huber_m=0.2", of the grid only
+  int repeat = 1;                      ///< counted from 1
   std::vector<std::string> arguments;  ///< of the program: "run", RECORDING, ...; output is "."
   RunLimits limits;
 

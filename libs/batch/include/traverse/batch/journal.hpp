@@ -15,10 +15,10 @@ struct JournalEntry {
   std::string utc{};    ///< "2026-11-22T10:15:30Z"
   std::string event{};  ///< "began", "started", "killed", "finished", "ended"
   std::string host{};
-  int pid = 0;          ///< began, ended: of the batch; started: of the run
+  int pid = 0;            ///< began, ended: of the batch; started: of the run
   std::string id{};       ///< of the run: started, killed, finished
   std::string outcome{};  ///< finished; killed: "signal 9"
-  double wall_s = 0;    ///< finished
+  double wall_s = 0;      ///< finished
   std::string text{};     ///< for people: the run's title, what the batch does
 };
 

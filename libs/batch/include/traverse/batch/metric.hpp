@@ -10,10 +10,10 @@ namespace traverse::batch {
 
 /// A figure that a run can have.
 struct Metric {
-  std::string key;    ///< "ape_translation_rmse": column of results.csv, name in plans
-  std::string title;  ///< "APE": head of the report's columns
-  std::string unit;   ///< "m", "deg", "ms", or empty
-  bool lower_is_better = true;  ///< else it is a count or a length, and nothing is better
+  std::string key;                ///< "ape_translation_rmse": column of results.csv, name in plans
+  std::string title;              ///< "APE": head of the report's columns
+  std::string unit;               ///< "m", "deg", "ms", or empty
+  bool lower_is_better = true;    ///< else it is a count or a length, and nothing is better
   bool is_measured_time = false;  ///< of the machine, other on every repeat; so is memory
 };
 

@@ -47,7 +47,8 @@ std::map<Outcome, std::size_t> count_outcomes(const Results& results);
 std::vector<std::string> broken_budgets(const Completion& completion,
                                         const std::vector<Budget>& budgets);
 
-/// results.csv: one row a run of the plan, every metric that any run has. \throws files::OutputError
+/// results.csv: one row a run of the plan, every metric that any run has. \throws
+/// files::OutputError
 void write_csv(const std::filesystem::path& file, const Results& results);
 
 /// results.json: the same with settings, identities and last lines of logs; a baseline for later.

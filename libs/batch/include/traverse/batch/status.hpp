@@ -20,10 +20,10 @@ struct BatchStatus {
     double seconds = 0;
   };
   std::vector<Running> running;
-  bool at_work = false;          ///< a batch on this machine holds the folder's lock
-  double runs_per_second = 0;    ///< of the last stretch of work; 0 if nothing is known
-  double seconds_left = 0;       ///< at that rate; 0 if nothing is known
-  std::string last_event_utc;    ///< of the journals
+  bool at_work = false;        ///< a batch on this machine holds the folder's lock
+  double runs_per_second = 0;  ///< of the last stretch of work; 0 if nothing is known
+  double seconds_left = 0;     ///< at that rate; 0 if nothing is known
+  std::string last_event_utc;  ///< of the journals
 };
 
 /// \throws files::InputError if the folder is not that of a batch.

@@ -12,7 +12,7 @@ namespace traverse::batch {
 
 /// The two averages of KITTI drift that papers give, which are not the same.
 struct KittiAverages {
-  double translation_all_segments_percent = 0;  ///< over all segments of all runs: the benchmark's
+  double translation_all_segments_percent = 0;   ///< over all segments of all runs: the benchmark's
   double translation_per_recording_percent = 0;  ///< mean of the recordings' own averages
   double rotation_all_segments_deg_per_m = 0;
   double rotation_per_recording_deg_per_m = 0;
