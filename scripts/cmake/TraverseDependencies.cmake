@@ -1,4 +1,5 @@
 # Every library that Traverse takes from Debian 12, found once. scripts/dependencies lists the packages.
+find_package(Boost REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(embree 3 REQUIRED)

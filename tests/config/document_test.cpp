@@ -128,5 +128,44 @@ TEST(Document, ChildIsTheMappingBelowAKey) {
   EXPECT_THROW(document.child("label"), InputError);
 }
 
+TEST(Document, ItemsOfAListAreMappingsWithTheirPlaces) {
+  const Document document =
+      Document::parse("drives:\n  - a.rawlog\n  - path: b\n    first: 3\nlabel: x\n", "x.yaml");
+  const auto items = document.items("drives", "path");
+  ASSERT_EQ(items.size(), 2U);
+  EXPECT_EQ(items[0].scalar("path"), "a.rawlog");
+  EXPECT_EQ(to_text(items[0].origin()), "x.yaml, line 2");
+  EXPECT_EQ(items[1].scalar("first"), "3");
+  EXPECT_EQ(to_text(items[1].origin()), "x.yaml, line 3");
+  EXPECT_EQ(to_text(*items[1].origin("first")), "x.yaml, line 4");
+  EXPECT_TRUE(document.items("none", "path").empty());
+  EXPECT_THROW(document.items("label", "path"), InputError);
+}
+
+TEST(Document, LeavesAreTheSameNestedOrWithDots) {
+  const Document document = Document::parse(
+      "solver:\n  huber_m: [0.1, 0.2]\nsolver.line_residual: vector\nempty: []\n", "x.yaml");
+  const auto leaves = document.leaves();
+  ASSERT_EQ(leaves.size(), 3U);
+  EXPECT_EQ(leaves[0].path, "solver.huber_m");
+  EXPECT_EQ(leaves[0].text, "[0.1, 0.2]");
+  EXPECT_THAT(leaves[0].items.value(), ElementsAre("0.1", "0.2"));
+  EXPECT_EQ(to_text(leaves[0].origin), "x.yaml, line 2");
+  EXPECT_EQ(leaves[1].path, "solver.line_residual");
+  EXPECT_EQ(leaves[1].text, "vector");
+  EXPECT_FALSE(leaves[1].items);
+  EXPECT_TRUE(leaves[2].items.value().empty());
+}
+
+TEST(Document, KeysThatAreReadElsewhereAreKnown) {
+  const Document document = Document::parse("count: 3\ndrives: [a]\n", "x.yaml");
+  std::int64_t count = 0;
+  const auto bind = [&](Binder& b) { b.integer("count", count, Range::any(), "how many"); };
+  static constexpr std::array<std::string_view, 1> kOthers{"drives"};
+  read(document, bind, kOthers);
+  EXPECT_EQ(count, 3);
+  EXPECT_THROW(read(document, bind), InputError);
+}
+
 }  // namespace
 }  // namespace traverse::config

@@ -74,6 +74,35 @@ void overlay_entry(Entry& base, const Entry& top) {
   }
 }
 
+std::string on_one_line(const YAML::Node& node) {
+  YAML::Emitter emitter;
+  emitter.SetSeqFormat(YAML::Flow);
+  emitter.SetMapFormat(YAML::Flow);
+  emitter << node;
+  return emitter.c_str();
+}
+
+Origin origin_of(const Entry& entry) {
+  return {entry.origin, static_cast<std::size_t>(entry.line)};
+}
+
+void collect_leaves(const Entry& mapping, const std::string& prefix, std::vector<Leaf>& leaves) {
+  for (const Entry& child : mapping.children) {
+    const std::string path = prefix + child.key;
+    if (child.is_mapping) {
+      collect_leaves(child, path + ".", leaves);
+      continue;
+    }
+    const YAML::Node& node = child.scalar_or_sequence;
+    Leaf leaf{path, on_one_line(node), std::nullopt, origin_of(child)};
+    if (node.IsSequence()) {
+      leaf.items.emplace();
+      for (const auto& item : node) leaf.items->push_back(on_one_line(item));
+    }
+    leaves.push_back(std::move(leaf));
+  }
+}
+
 }  // namespace
 
 const Entry* Document::Tree::Entry::find(std::string_view name) const {
@@ -151,7 +180,7 @@ std::optional<Origin> Document::origin(std::string_view path) const {
     if (dot == std::string_view::npos) break;
     path.remove_prefix(dot + 1);
   }
-  return Origin{entry->origin, static_cast<std::size_t>(entry->line)};
+  return origin_of(*entry);
 }
 
 Document Document::child(std::string_view top_level_key) const {
@@ -165,6 +194,42 @@ Document Document::child(std::string_view top_level_key) const {
   result.tree_->root = *entry;
   return result;
 }
+
+std::vector<Document> Document::items(std::string_view top_level_key,
+                                      std::string_view short_key) const {
+  std::vector<Document> documents;
+  const Entry* entry = tree_->root.find(top_level_key);
+  if (entry == nullptr) return documents;
+  if (entry->is_mapping || !entry->scalar_or_sequence.IsSequence()) {
+    throw InputError(entry->origin, place_of(*entry), "a list under '" + entry->key + "'",
+                     entry->is_mapping ? "a mapping" : "a single value");
+  }
+  for (const YAML::Node& item : entry->scalar_or_sequence) {
+    const int line = item.Mark().line + 1;
+    const Place place = Place::line(static_cast<std::size_t>(line));
+    Document document;
+    if (item.IsScalar()) {
+      document.tree_->root.children.push_back(
+          {std::string(short_key), entry->origin, line, item, {}, false});
+      document.tree_->root.origin = entry->origin;
+      document.tree_->root.line = line;
+    } else if (item.IsMap()) {
+      document.tree_->root = build(item, "", entry->origin, line, 0);
+    } else {
+      throw InputError(entry->origin, place, "a text or a mapping", "neither");
+    }
+    documents.push_back(std::move(document));
+  }
+  return documents;
+}
+
+std::vector<Leaf> Document::leaves() const {
+  std::vector<Leaf> leaves;
+  collect_leaves(tree_->root, "", leaves);
+  return leaves;
+}
+
+Origin Document::origin() const { return origin_of(tree_->root); }
 
 std::vector<std::string> Document::keys() const {
   std::vector<std::string> names;

@@ -112,6 +112,8 @@ class Reader : public Binder {
     reader.reject_unbound();
   }
 
+  void read_elsewhere(std::string_view key) { bound_.emplace(key); }
+
   void reject_unbound() const {
     for (const Entry& child : mapping_.children) {
       if (bound_.contains(child.key)) continue;
@@ -161,8 +163,9 @@ class Reader : public Binder {
 
 }  // namespace
 
-void read(const Document& document, const Bind& bind) {
+void read(const Document& document, const Bind& bind, std::span<const std::string_view> others) {
   Reader reader(document.tree().root, "");
+  for (const std::string_view key : others) reader.read_elsewhere(key);
   bind(reader);
   reader.reject_unbound();
 }

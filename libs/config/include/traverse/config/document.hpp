@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,14 @@ struct Origin {
 
 /// "drive/traverse.yaml, line 3" or "--set cell_m=0.2".
 std::string to_text(const Origin& origin);
+
+/// A key that holds no further keys.
+struct Leaf {
+  std::string path;  ///< "solver.huber_m", whether nested or written with dots
+  std::string text;  ///< the value as YAML on one line
+  std::optional<std::vector<std::string>> items;  ///< of a list, each as YAML on one line
+  Origin origin;
+};
 
 /// A YAML mapping with the places of its keys, and overrides on top of it (--set key=value).
 class Document {
@@ -50,6 +59,14 @@ class Document {
   /// key holds something else.
   Document child(std::string_view top_level_key) const;
   std::vector<std::string> keys() const;  ///< of the top level, in order
+  /// The items of the list under `top_level_key`, each a mapping of its own; a plain item stands
+  /// for {short_key: item}. Empty if there is no such key.
+  /// \throws files::InputError if the key holds something else.
+  std::vector<Document> items(std::string_view top_level_key, std::string_view short_key) const;
+  /// Every key that holds a value or a list, in order, through nested mappings.
+  std::vector<Leaf> leaves() const;
+  /// Where the mapping itself begins.
+  Origin origin() const;
 
   class Tree;
   const Tree& tree() const { return *tree_; }
@@ -62,6 +79,8 @@ class Document {
 /// \throws files::InputError naming file, line, key, what is allowed and what was found, for a
 /// value of the wrong type or out of range and for a key that nothing binds (with the nearest
 /// known key as a hint).
-void read(const Document& document, const Bind& bind);
+/// \param others top-level keys that are no settings and are read by child() or items()
+void read(const Document& document, const Bind& bind,
+          std::span<const std::string_view> others = {});
 
 }  // namespace traverse::config

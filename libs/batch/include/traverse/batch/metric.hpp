@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace traverse::batch {
+
+/// A figure that a run can have.
+struct Metric {
+  std::string key;                ///< "ape_translation_rmse": column of results.csv, name in plans
+  std::string title;              ///< "APE": head of the report's columns
+  std::string unit;               ///< "m", "deg", "ms", or empty
+  bool lower_is_better = true;    ///< else it is a count or a length, and nothing is better
+  bool is_measured_time = false;  ///< of the machine, other on every repeat; so is memory
+};
+
+/// Every metric, in the order of the columns of results.csv.
+const std::vector<Metric>& known_metrics();
+/// The metric of that key, or nullptr.
+const Metric* find_metric(std::string_view key);
+/// What a report shows when the plan does not say.
+std::vector<std::string> default_metrics();
+
+/// The metrics that a run folder has, in the order of known_metrics(); what is not defined is left
+/// out. Missing or broken files give none.
+std::vector<std::pair<std::string, double>> read_metrics(const std::filesystem::path& run_folder);
+
+}  // namespace traverse::batch

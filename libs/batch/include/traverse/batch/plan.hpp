@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "traverse/config/document.hpp"
+
+namespace traverse::batch {
+
+/// What a run may take. A run that takes more is ended and reported as such.
+struct RunLimits {
+  double time_s = 3600;
+  double memory_mb = 0;  ///< resident; 0: as much as the machine has
+  int threads = 1;
+  int attempts = 5;  ///< of a run that something outside killed, before it counts as crashed
+
+  bool operator==(const RunLimits&) const = default;
+};
+
+/// A recording that `traverse simulate` makes before the runs begin.
+struct GeneratedRecording {
+  std::string world;                   ///< as `traverse simulate WORLD`
+  std::vector<std::string> arguments;  ///< "--length", "60"; --output is added
+};
+
+struct PlannedRecording {
+  std::string name;            ///< once in the plan
+  std::filesystem::path path;  ///< absolute; empty as long as a generated one is not made
+  std::optional<GeneratedRecording> generated;
+  std::filesystem::path statements_file;  ///< absolute, or empty
+  std::vector<std::string> statements;    ///< "motion_compensated=true"
+  std::filesystem::path reference;        ///< absolute, or empty
+  std::string reference_frame;            ///< body, lidar, camera, or empty
+  std::int64_t first = 0;
+  std::int64_t last = -1;  ///< included; -1: to the end
+  config::Origin origin;
+};
+
+/// A setting and the values it takes in turn.
+struct GridAxis {
+  std::string key;                  ///< "solver.huber_m"
+  std::vector<std::string> values;  ///< as YAML on one line
+  config::Origin origin;
+};
+
+struct PlannedPipeline {
+  std::string name;    ///< once in the plan
+  std::string preset;  ///< of share/pipelines, or the absolute path of a YAML file
+  std::vector<std::filesystem::path> config_files;
+  std::vector<std::string> assignments;  ///< "solver.huber_m=0.2"
+  std::vector<GridAxis> grid;            ///< the plan's axes, then its own
+  config::Origin origin;
+};
+
+/// The most that a metric may be in any run, as "pass" and "fail" in the report.
+struct Budget {
+  std::string metric;
+  double most = 0;
+};
+
+struct SlurmOptions {
+  std::vector<std::string> sbatch;  ///< "--partition=main"
+  int runs_per_task = 0;            ///< 0: as few as the size of the largest array allows
+  int most_at_once = 0;             ///< tasks; 0: as many as the scheduler likes
+};
+
+/// Recordings x pipelines x grid x repeats, and how to run them; docs/batch.md describes the file.
+struct Plan {
+  std::filesystem::path file;
+  std::string text;  ///< of the file, for the report
+  std::string description;
+  std::vector<PlannedRecording> recordings;
+  std::vector<PlannedPipeline> pipelines;
+  int repeats = 1;
+  bool reports = true;               ///< pictures and report.html of each run
+  std::vector<std::string> metrics;  ///< the report's columns; the first ranks
+  std::vector<Budget> budgets;
+  RunLimits limits;
+  config::Origin threads_origin;  ///< where limits.threads stands, if it does
+  config::Origin memory_origin;
+  SlurmOptions slurm;
+};
+
+/// Says what is wrong with `traverse simulate WORDS`, or nothing if it would begin.
+using SimulationCheck =
+    std::function<std::optional<std::string>(const std::vector<std::string>& words)>;
+
+/// Reads and checks a plan: known keys, files that are there, presets and settings that exist,
+/// limits that can be kept, names that are there once.
+/// \throws files::InputError with file and line.
+Plan load_plan(const std::filesystem::path& file, const std::filesystem::path& share_folder,
+               const SimulationCheck& simulation_error);
+
+/// The numbers that multiply to the number of runs, in words: "2 recordings x 3 pipelines ...".
+std::string describe(const Plan& plan);
+
+/// The points of a pipeline's grid: one list of "key=value" a point; one empty list without grid.
+std::vector<std::vector<std::string>> grid_points(const std::vector<GridAxis>& grid);
+
+}  // namespace traverse::batch

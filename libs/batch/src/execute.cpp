@@ -1,0 +1,239 @@
+#include "traverse/batch/execute.hpp"
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <deque>
+#include <fstream>
+#include <string>
+#include <system_error>
+#include <unistd.h>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "traverse/batch/metric.hpp"
+#include "traverse/batch/run_process.hpp"
+#include "traverse/files/atomic_file.hpp"
+#include "traverse/files/digest.hpp"
+#include "traverse/files/input_error.hpp"
+#include "traverse/files/numbers.hpp"
+#include "traverse/pipeline/provenance.hpp"
+#include "traverse/pipeline/run_folder.hpp"
+
+#include "host_name.hpp"
+
+namespace traverse::batch {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Cause = ProcessEnd::Cause;
+
+constexpr std::size_t kLastLines = 20;
+constexpr std::size_t kLongestLine = 400;
+constexpr const char* kPartial = ".partial";
+
+/// ".0123456789abcdef.host.4711.partial"
+fs::path work_folder(const BatchFolder& folder, const Job& job) {
+  return folder.runs() / fmt::format(".{}.{}.{}{}", BatchFolder::run_name(job.id), host_name(),
+                                     ::getpid(), kPartial);
+}
+
+void begin_empty(const fs::path& folder) {
+  std::error_code failure;
+  fs::remove_all(folder, failure);
+  if (!failure) fs::create_directory(folder, failure);
+  if (failure) throw files::OutputError(folder, failure.message());
+}
+
+std::vector<std::string> last_lines(const fs::path& log) {
+  std::ifstream stream(log);
+  std::deque<std::string> lines;
+  for (std::string line; std::getline(stream, line);) {
+    lines.push_back(line.substr(0, kLongestLine));
+    if (lines.size() > kLastLines) lines.pop_front();
+  }
+  return {lines.begin(), lines.end()};
+}
+
+struct RunStatus {
+  std::string status;
+  std::string reason;
+};
+
+RunStatus status_of(const fs::path& run_folder) {
+  std::ifstream stream(pipeline::RunFolder{run_folder}.record());
+  const auto record = nlohmann::json::parse(stream, nullptr, /*allow_exceptions=*/false);
+  if (!record.is_object()) return {};
+  return {record.value("status", ""), record.value("reason", "")};
+}
+
+/// How often the system killed something because memory ran out.
+long out_of_memory_kills() {
+  std::ifstream stream("/proc/vmstat");
+  std::string name;
+  for (long count = 0; stream >> name >> count;) {
+    if (name == "oom_kill") return count;
+  }
+  return 0;
+}
+
+/// The line of the log that says why: the program's own message, else the last one.
+std::string message_of(const std::vector<std::string>& lines) {
+  constexpr std::string_view kOwn = "traverse: ";
+  for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
+    if (line->starts_with(kOwn)) return line->substr(kOwn.size());
+  }
+  return lines.empty() ? "no message" : lines.back();
+}
+
+/// Ended from outside: nothing the run did, and nothing that would happen again.
+bool was_killed(const ProcessEnd& end, const RunStatus& status, bool memory_ran_out) {
+  if (end.cause != Cause::kItself) return false;
+  if (end.signal == SIGKILL) return !memory_ran_out;
+  return end.signal == SIGTERM || end.signal == SIGINT || end.signal == SIGHUP ||
+         status.status == "interrupted";  // it ends in order on SIGTERM
+}
+
+void judge(const Job& job, const ProcessEnd& end, bool memory_ran_out, Completion& completion) {
+  const std::string message = message_of(completion.last_lines);
+  if (end.cause == Cause::kTimeLimit) {
+    completion.outcome = Outcome::kTimedOut;
+    completion.reason = fmt::format("more than {:g} s", job.limits.time_s);
+  } else if (end.cause == Cause::kMemoryLimit) {
+    completion.outcome = Outcome::kOutOfMemory;
+    completion.reason = fmt::format("more than {:g} MB", job.limits.memory_mb);
+  } else if (memory_ran_out || message.find("std::bad_alloc") != std::string::npos) {
+    completion.outcome = Outcome::kOutOfMemory;
+    completion.reason = "the machine had no more memory";
+  } else if (end.signal != 0) {
+    completion.outcome = Outcome::kCrashed;
+    completion.reason = fmt::format("signal {} ({})", end.signal, ::strsignal(end.signal));
+    if (completion.attempts > 1) {
+      completion.reason += fmt::format(", {} attempts", completion.attempts);
+    }
+  } else if (end.exit_status != 0) {
+    completion.outcome = Outcome::kFailed;
+    completion.reason = message;
+  } else {
+    completion.outcome = Outcome::kOk;
+  }
+}
+
+void add_results(const fs::path& work, Completion& completion) {
+  const pipeline::RunFolder run{work};
+  completion.metrics = read_metrics(work);
+  for (const auto& [name, value] :
+       {MetricValue{"wall_s", completion.wall_s}, MetricValue{"cpu_s", completion.cpu_s},
+        MetricValue{"peak_memory_mb", completion.peak_memory_mb}}) {
+    completion.metrics.emplace_back(name, value);
+  }
+  completion.has_report = fs::is_regular_file(run.report());
+  if (fs::is_regular_file(run.trajectory())) {
+    completion.trajectory_sha256 = files::sha256_of_file(run.trajectory());
+  }
+}
+
+/// Gives the run its name. \returns the record that stands there: another process may have been
+/// faster with the same run.
+Completion publish(const fs::path& work, const Job& job, const Completion& completion,
+                   const BatchFolder& folder) {
+  const fs::path place = folder.run(job.id);
+  std::error_code failure;
+  fs::rename(work, place, failure);
+  if (!failure) return completion;
+  const auto there = find_completion(folder.completion(job.id));
+  if (there && !is_outdated(*there, job)) {
+    fs::remove_all(work, failure);
+    return *there;
+  }
+  discard(folder, job);
+  fs::rename(work, place, failure);
+  if (failure) throw files::OutputError(place, failure.message());
+  return completion;
+}
+
+Completion finish(const fs::path& work, const Job& job, const ProcessEnd& end, bool memory_ran_out,
+                  Completion completion, const BatchFolder& folder) {
+  completion.exit_status = end.exit_status;
+  completion.signal = end.signal;
+  completion.wall_s = end.wall_s;
+  completion.cpu_s = end.cpu_s;
+  completion.peak_memory_mb = end.peak_memory_mb;
+  completion.last_lines = last_lines(work / "log.txt");
+  judge(job, end, memory_ran_out, completion);
+  if (completion.outcome == Outcome::kOk) completion.last_lines.clear();
+  add_results(work, completion);
+  files::write_text(work / "result.json", to_json(completion));
+  return publish(work, job, completion, folder);
+}
+
+}  // namespace
+
+fs::path log_in_work(const BatchFolder& folder, const Job& job) {
+  return work_folder(folder, job) / "log.txt";
+}
+
+std::optional<Completion> execute(const Job& job, const ExecutionContext& context) {
+  const fs::path work = work_folder(context.folder, job);
+  Completion completion;
+  completion.id = job.id;
+  completion.identity = job.identity;
+  completion.limits = job.limits;
+  completion.host = host_name();
+  for (int attempt = 1;; ++attempt) {
+    begin_empty(work);
+    completion.attempts = attempt;
+    completion.started_utc = pipeline::utc_now();
+    ProcessStart start{context.program, job.arguments, work, work / "log.txt"};
+    start.time_limit_s = job.limits.time_s;
+    start.memory_limit_mb = job.limits.memory_mb;
+    start.started = [&](int pid) { context.journal.started(job, pid, attempt); };
+    const long kills_before = out_of_memory_kills();
+    const ProcessEnd end = run_process(start, context.stop);
+    if (end.cause == Cause::kStopped || (context.stop && end.signal != 0)) {
+      std::error_code ignored;
+      fs::remove_all(work, ignored);
+      return std::nullopt;
+    }
+    const bool memory_ran_out = end.cause == Cause::kItself && end.signal == SIGKILL &&
+                                out_of_memory_kills() > kills_before;
+    if (was_killed(end, status_of(work), memory_ran_out)) {
+      context.journal.killed(job, end.signal);
+      if (attempt < job.limits.attempts) continue;
+    }
+    completion = finish(work, job, end, memory_ran_out, std::move(completion), context.folder);
+    context.journal.finished(job, completion);
+    return completion;
+  }
+}
+
+void discard(const BatchFolder& folder, const Job& job) {
+  // First out of the way by one rename: a folder that is half removed must not look finished.
+  const fs::path aside = work_folder(folder, job).string() + ".discarded" + kPartial;
+  std::error_code failure;
+  fs::remove_all(aside, failure);
+  fs::rename(folder.run(job.id), aside, failure);
+  if (failure == std::errc::no_such_file_or_directory) return;
+  if (!failure) fs::remove_all(aside, failure);
+  if (failure) throw files::OutputError(folder.run(job.id), failure.message());
+}
+
+void remove_abandoned(const BatchFolder& folder) {
+  std::error_code failure;
+  for (const auto& entry : fs::directory_iterator(folder.runs(), failure)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with('.') || !name.ends_with(kPartial)) continue;
+    const std::string ours = "." + host_name() + ".";
+    const std::size_t at = name.find(ours);
+    if (at == std::string::npos) continue;
+    const std::size_t digits = at + ours.size();
+    const auto pid = files::parse_integer(name.substr(digits, name.find('.', digits) - digits));
+    const bool alive = pid && *pid != ::getpid() && ::kill(static_cast<pid_t>(*pid), 0) == 0;
+    if (!alive) fs::remove_all(entry.path(), failure);
+  }
+}
+
+}  // namespace traverse::batch

@@ -1,0 +1,198 @@
+#include "traverse/batch/metric.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <map>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "traverse/evaluation/relation.hpp"
+#include "traverse/pipeline/run_folder.hpp"
+
+namespace traverse::batch {
+
+namespace {
+
+using nlohmann::json;
+using Values = std::map<std::string, double, std::less<>>;
+
+constexpr std::array<const char*, 6> kStatistics{"rmse", "mean", "median", "std", "min", "max"};
+/// The stretches of evaluation::run_evaluation_options(), as their keys name them.
+constexpr std::array<const char*, 5> kStretches{"1f", "10f", "50f", "100f", "100m"};
+
+std::string key_of(std::string_view relation) {
+  std::string key(relation);
+  std::replace(key.begin(), key.end(), '-', '_');
+  return key;
+}
+
+std::string stretch_title(std::string_view stretch) {
+  const std::string number(stretch.substr(0, stretch.size() - 1));
+  if (stretch.back() == 'm') return number + " m";
+  return number + (number == "1" ? " frame" : " frames");
+}
+
+/// "", " angle", " full transformation": translation and the mean square need no word.
+std::string qualifier(evaluation::Relation relation, std::string_view statistic) {
+  std::string text;
+  if (relation == evaluation::Relation::kAngleDeg) {
+    text = " angle";
+  } else if (relation != evaluation::Relation::kTranslation) {
+    text = " " + std::string(evaluation::title_of(relation));
+  }
+  if (statistic != "rmse") text += " " + std::string(statistic);
+  return text;
+}
+
+std::vector<Metric> make_metrics() {
+  std::vector<Metric> metrics;
+  for (const auto& [name, relation] : evaluation::kRelationNames) {
+    if (!evaluation::is_absolute(relation)) continue;
+    for (const char* statistic : kStatistics) {
+      metrics.push_back({fmt::format("ape_{}_{}", key_of(name), statistic),
+                         "APE" + qualifier(relation, statistic),
+                         std::string(evaluation::unit_of(relation))});
+    }
+  }
+  for (const char* stretch : kStretches) {
+    for (const auto& [name, relation] : evaluation::kRelationNames) {
+      for (const char* statistic : kStatistics) {
+        metrics.push_back({fmt::format("rpe_{}_{}_{}", stretch, key_of(name), statistic),
+                           "RPE " + stretch_title(stretch) + qualifier(relation, statistic),
+                           std::string(evaluation::unit_of(relation))});
+      }
+    }
+  }
+  const std::vector<Metric> others{{"kitti_translation_percent", "KITTI drift", "%"},
+                                   {"kitti_rotation_deg_per_m", "KITTI rotation", "deg/m"},
+                                   {"kitti_segments", "KITTI segments", "", false},
+                                   {"end_error_m", "End error", "m"},
+                                   {"end_error_percent", "End error", "%"},
+                                   {"end_rotation_deg", "End rotation", "deg"},
+                                   {"path_estimate_m", "Path, estimate", "m", false},
+                                   {"path_reference_m", "Path, reference", "m", false},
+                                   {"pairs", "Pairs", "", false},
+                                   {"mme", "Map entropy", "nats"},
+                                   {"mpv_m", "Plane deviation", "m"},
+                                   {"frames_used", "Frames used", "", false},
+                                   {"frames_skipped", "Records skipped", ""},
+                                   {"map_points", "Map points", "", false},
+                                   {"frame_median_ms", "Time a frame", "ms", true, true},
+                                   {"frame_p95_ms", "Time a frame, 95 %", "ms", true, true},
+                                   {"frame_max_ms", "Time a frame, most", "ms", true, true},
+                                   {"frames_total_ms", "Time of all frames", "ms", true, true},
+                                   {"wall_s", "Wall time", "s", true, true},
+                                   {"cpu_s", "CPU time", "s", true, true},
+                                   {"peak_memory_mb", "Memory", "MB", true, true}};
+  metrics.insert(metrics.end(), others.begin(), others.end());
+  return metrics;
+}
+
+/// The file without the values behind each figure, which are most of it; null if it is no JSON.
+json read_figures(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  const auto keep = [](int, json::parse_event_t event, json& parsed) {
+    return event != json::parse_event_t::key || (parsed != "per_pair" && parsed != "per_segment");
+  };
+  json figures = json::parse(stream, keep, /*allow_exceptions=*/false);
+  return figures.is_object() ? figures : json(nullptr);
+}
+
+/// The number at `path`, if there is one.
+void take(const json& figures, const char* path, const std::string& key, Values& values) {
+  const json::json_pointer pointer(path);
+  if (!figures.contains(pointer) || !figures.at(pointer).is_number()) return;
+  values[key] = figures.at(pointer).get<double>();
+}
+
+void take_statistics(const json& statistics, const std::string& prefix, Values& values) {
+  for (const char* statistic : kStatistics) {
+    take(statistics, fmt::format("/{}", statistic).c_str(), prefix + "_" + statistic, values);
+  }
+}
+
+void take_accuracy(const json& evaluation, Values& values) {
+  if (evaluation.contains("ape")) {
+    for (const auto& [relation, statistics] : evaluation["ape"].items()) {
+      take_statistics(statistics, "ape_" + key_of(relation), values);
+    }
+  }
+  if (evaluation.contains("rpe")) {
+    for (const json& rpe : evaluation["rpe"]) {
+      take_statistics(rpe.at("stats"),
+                      fmt::format("rpe_{}{}_{}", rpe.at("delta").get<double>(),
+                                  rpe.at("unit").get<std::string>(),
+                                  key_of(rpe.at("relation").get<std::string>())),
+                      values);
+    }
+  }
+  take(evaluation, "/kitti/translation_percent", "kitti_translation_percent", values);
+  take(evaluation, "/kitti/rotation_deg_per_m", "kitti_rotation_deg_per_m", values);
+  take(evaluation, "/kitti/segments", "kitti_segments", values);
+  take(evaluation, "/path/end_error_m", "end_error_m", values);
+  take(evaluation, "/path/end_error_percent", "end_error_percent", values);
+  take(evaluation, "/path/end_rotation_deg", "end_rotation_deg", values);
+  take(evaluation, "/path/estimate_m", "path_estimate_m", values);
+  take(evaluation, "/path/reference_m", "path_reference_m", values);
+  take(evaluation, "/association/pairs", "pairs", values);
+  take(evaluation, "/consistency/mme", "mme", values);
+  take(evaluation, "/consistency/mpv_m", "mpv_m", values);
+}
+
+void take_run(const json& run, Values& values) {
+  take(run, "/frames/used", "frames_used", values);
+  take(run, "/map/points", "map_points", values);
+  for (const char* name : {"frame_median", "frame_p95", "frame_max"}) {
+    take(run, fmt::format("/timing_ms/{}", name).c_str(), fmt::format("{}_ms", name), values);
+  }
+  take(run, "/timing_ms/total", "frames_total_ms", values);
+  if (run.contains("/frames/skipped"_json_pointer)) {
+    double skipped = 0;
+    for (const json& count : run["frames"]["skipped"]) skipped += count.get<double>();
+    values["frames_skipped"] = skipped;
+  }
+}
+
+}  // namespace
+
+const std::vector<Metric>& known_metrics() {
+  static const std::vector<Metric> kMetrics = make_metrics();
+  return kMetrics;
+}
+
+const Metric* find_metric(std::string_view key) {
+  const auto& metrics = known_metrics();
+  const auto found = std::find_if(metrics.begin(), metrics.end(),
+                                  [&](const Metric& metric) { return metric.key == key; });
+  return found == metrics.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> default_metrics() {
+  return {"ape_translation_rmse",      "ape_angle_deg_rmse",
+          "rpe_10f_translation_rmse",  "rpe_10f_angle_deg_rmse",
+          "kitti_translation_percent", "kitti_rotation_deg_per_m",
+          "end_error_percent",         "mme",
+          "frame_median_ms",           "peak_memory_mb"};
+}
+
+std::vector<std::pair<std::string, double>> read_metrics(const std::filesystem::path& run_folder) {
+  Values values;
+  const pipeline::RunFolder folder{run_folder};
+  try {
+    take_accuracy(read_figures(folder.evaluation()), values);
+    take_run(read_figures(folder.record()), values);
+  } catch (const json::exception&) {
+    values.clear();  // not files of this program: a run that crashed while it wrote
+  }
+  std::vector<std::pair<std::string, double>> ordered;
+  for (const Metric& metric : known_metrics()) {
+    const auto found = values.find(metric.key);
+    if (found != values.end()) ordered.emplace_back(metric.key, found->second);
+  }
+  return ordered;
+}
+
+}  // namespace traverse::batch
