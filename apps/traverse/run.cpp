@@ -14,6 +14,7 @@
 #include "traverse/config/settings.hpp"
 #include "traverse/files/input_error.hpp"
 
+#include "budget_option.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "installed_files.hpp"
@@ -59,6 +60,7 @@ struct RunArguments {
   std::optional<std::size_t> last;
   int threads = 1;
   bool report = true;
+  std::optional<std::filesystem::path> budget;
   bool hash = true;
 };
 
@@ -111,13 +113,21 @@ void run_recording(RunArguments& arguments, const std::vector<std::string>& comm
   observer.stage = [&](const std::string&) { bar.finish(); };
   const pipeline::RunRecord record = pipeline::run(*source, pipeline, folder, options, observer);
 
-  if (arguments.report) write_report_with_progress(folder.path, installed.templates);
+  std::optional<report::BudgetResult> budget;
+  if (arguments.report) {
+    report::RunReportOptions report_options;
+    report_options.budget = arguments.budget;
+    budget = write_report_with_progress(folder.path, installed.templates, report_options);
+  } else if (arguments.budget) {
+    budget = report::check_budget(*arguments.budget, folder.path);
+  }
   print_run_summary(record, folder, arguments.report);
   if (!record.evaluation_error.empty()) {
     throw std::runtime_error("the run is complete, but it could not be compared with " +
                              record.reference_file.value_or("its reference") + ": " +
                              record.evaluation_error);
   }
+  if (budget) require_kept(*budget);
 }
 
 constexpr const char* kExamples = R"(Examples:
@@ -161,6 +171,7 @@ void add_run(CLI::App& app) {
                   "what moves along the reference: body, lidar or camera")
       ->check(CLI::IsMember({"body", "lidar", "camera"}));
   run->add_flag("!--no-report", arguments->report, "no pictures and no report.html");
+  add_budget_option(*run, arguments->budget);
   run->add_flag("!--no-hash", arguments->hash, "do not compute the recording's SHA-256");
   run->callback([arguments, run] {
     if (arguments->last && *arguments->last < arguments->first) {
