@@ -3,7 +3,8 @@
 "use strict";
 (() => {
   const kSeries = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7a7a7a", "#8c6d31"];
-  const linked = [];  // charts over time or distance
+  const views = [];
+  const linked = [];  // those over time or distance
   let overDistance = false;
   let busy = false;
 
@@ -22,8 +23,8 @@
   };
 
   const ink = () => traverse.dark.matches
-    ? { axis: "#5b6069", grid: "#2c3038", mark: "#e6e7ea" }
-    : { axis: "#a2a8b3", grid: "#e6e8ec", mark: "#1c1d21" };
+    ? { axis: "#5b6069", grid: "#2c3038" }
+    : { axis: "#a2a8b3", grid: "#e6e8ec" };
 
   /** Poses of the chart's values and their places on the axis. */
   const posesOf = (chart) => chart.pose ?? traverse.report.poses.time_s.map((_, i) => i);
@@ -92,18 +93,19 @@
     busy = false;
   };
 
-  const markMoment = (view, context, area, graph) => {
+  /** The line at the moment that the page looks at; an element, so that moving it draws nothing. */
+  const markMoment = (view) => {
     const row = rowOfPose(view, traverse.pose);
-    if (row === null || view.axis[row] === undefined) return;
-    const x = graph.toDomXCoord(view.axis[row]);
-    context.save();
-    context.strokeStyle = ink().mark;
-    context.setLineDash([4, 3]);
-    context.beginPath();
-    context.moveTo(x, area.y);
-    context.lineTo(x, area.y + area.h);
-    context.stroke();
-    context.restore();
+    const x = row === null || !view.graph ? NaN : view.graph.toDomXCoord(view.axis[row]);
+    const area = view.graph?.getArea();
+    view.mark.hidden = !(area && x >= area.x - 1 && x <= area.x + area.w + 1);
+    if (!view.mark.hidden) view.mark.style.left = `${x}px`;
+  };
+
+  /** The whole run, for all charts over time or distance. */
+  const wholeRun = () => {
+    const axis = traverse.report.poses[overDistance ? "distance_m" : "time_s"];
+    return [axis[0], axis[axis.length - 1] || 1];
   };
 
   const makeView = (chart, place) => {
@@ -115,7 +117,12 @@
     head.append(element("h4", "", chart.unit ? `${chart.title} [${chart.unit}]` : chart.title));
     view.readout = element("div", "readout");
     const canvas = element("div", "plot");
-    view.element.append(head, view.readout, canvas);
+    view.below = element("div", "axis-name", chart.x_name ?? "time [s]");
+    view.mark = element("div", "moment-mark");
+    const plot = element("div", "plot-with-mark");
+    plot.append(canvas);
+    if (!chart.x) plot.append(view.mark);
+    view.element.append(head, view.readout, plot, view.below);
     place.append(view.element);
     const names = chart.series.map((series) => series.name || "value");
     const options = {
@@ -128,23 +135,23 @@
       connectSeparatedPoints: false,
       highlightCallback: (event, x, points, row) => (chart.x ? readout(view, row) : hover(view, row)),
       unhighlightCallback: () => (chart.x ? readout(view, null) : hover(view, rowOfPose(view, traverse.pose) ?? 0)),
-      zoomCallback: (least, most) => { if (!chart.x) zoom(view, least === undefined ? null : [least, most]); },
-      pointClickCallback: undefined,
+      zoomCallback: (least, most) => { if (!chart.x) zoom(view, [least, most]); },
       clickCallback: (event) => {
         const row = view.graph.getSelection();
         if (row >= 0 && view.poses[row] !== undefined && chart.id.indexOf("kitti") !== 0) {
           traverse.look(view.poses[row], chart.id);
         }
       },
-      underlayCallback: (context, area, graph) => { if (!chart.x) markMoment(view, context, area, graph); },
+      drawCallback: () => { if (!chart.x) markMoment(view); },
     };
     if (chart.level) options.series = { [chart.level.name]: { strokePattern: [6, 4], strokeWidth: 1, drawPoints: false, fillGraph: false } };
     if (chart.x) options.xRangePad = 6;
+    else options.dateWindow = wholeRun();
     view.graph = new Dygraph(canvas, rowsOf(chart, view.poses), options);
     if (!chart.x) {
       linked.push(view);
       // A double click shows the whole run again in every chart.
-      canvas.addEventListener("dblclick", () => zoom(view, null));
+      canvas.addEventListener("dblclick", () => zoom(null, wholeRun()));
     }
     return view;
   };
@@ -153,7 +160,8 @@
     overDistance = distance;
     for (const view of linked) {
       view.axis = axisOf(view.chart, view.poses);
-      view.graph.updateOptions({ file: rowsOf(view.chart, view.poses), dateWindow: null });
+      view.below.textContent = distance ? "distance [m]" : "time [s]";
+      view.graph.updateOptions({ file: rowsOf(view.chart, view.poses), dateWindow: wholeRun() });
     }
     for (const choice of document.querySelectorAll(".axis-choice button")) {
       choice.setAttribute("aria-pressed", String((choice.dataset.axis === "distance") === distance));
@@ -178,17 +186,19 @@
     if (charts.length === 0) continue;
     place.hidden = false;
     if (charts.some((chart) => !chart.x)) place.append(axisChoice());
-    for (const chart of charts) makeView(chart, place);
+    for (const chart of charts) views.push(makeView(chart, place));
   }
   document.documentElement.classList.add("has-charts");
 
   const follow = () => {
     for (const view of linked) {
-      view.graph.updateOptions({ axisLineColor: ink().axis, gridLineColor: ink().grid });
       select(view, rowOfPose(view, traverse.pose));
+      markMoment(view);
     }
   };
   traverse.follow(follow);
-  traverse.dark.addEventListener("change", follow);
+  traverse.dark.addEventListener("change", () => {
+    for (const view of views) view.graph.updateOptions({ axisLineColor: ink().axis, gridLineColor: ink().grid });
+  });
   follow();
 })();

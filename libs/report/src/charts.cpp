@@ -139,7 +139,7 @@ void add_kitti(const evaluation::KittiDrift& kitti, Json& charts) {
       translation.push_back(bin.translation_percent);
       rotation.push_back(100 * bin.rotation_deg_per_m);
     }
-    charts.push_back(Chart(id, "kitti", std::string("KITTI drift by ") + name, "% and deg/100 m")
+    charts.push_back(Chart(id, "kitti", std::string("KITTI drift by ") + name, "")
                          .series("translation [%]", translation)
                          .series("rotation [deg/100 m]", rotation)
                          .x(name, centres)

@@ -13,6 +13,10 @@ std::string base64(std::string_view bytes) {
   return encoded;
 }
 
-std::string png_data_uri(std::string_view png) { return "data:image/png;base64," + base64(png); }
+std::string data_uri(std::string_view type, std::string_view bytes) {
+  std::string uri = "data:";
+  uri.append(type).append(";base64,").append(base64(bytes));
+  return uri;
+}
 
 }  // namespace traverse::report

@@ -7,7 +7,7 @@ namespace traverse::report {
 
 std::string base64(std::string_view bytes);
 
-/// A PNG file's bytes as "data:image/png;base64,...", to stand in an HTML page.
-std::string png_data_uri(std::string_view png);
+/// A file's bytes as "data:image/png;base64,...", to stand in an HTML page.
+std::string data_uri(std::string_view type, std::string_view bytes);
 
 }  // namespace traverse::report

@@ -7,6 +7,8 @@
 #include "traverse/pipeline/run_folder.hpp"
 #include "traverse/render/vector_file.hpp"
 
+#include "data_uri.hpp"
+
 namespace traverse::report {
 
 FigureMaker::FigureMaker(const RunData& run,
@@ -29,6 +31,12 @@ render::Caption FigureMaker::caption(std::string title, std::string statistic) c
           run_.date()};
 }
 
+render::Style FigureMaker::sized(render::Style style, double share) {
+  style.width = static_cast<int>(share * style.width);
+  style.height = static_cast<int>(share * style.height);
+  return style;
+}
+
 std::size_t FigureMaker::begin(Figure figure) {
   const std::lock_guard lock(figures_mutex_);
   figures_.push_back(std::move(figure));
@@ -38,18 +46,22 @@ std::size_t FigureMaker::begin(Figure figure) {
 void FigureMaker::finish(const render::Drawing& drawing, const std::string& file, std::size_t index,
                          bool dark) {
   // For paper: light, and only what is lines, for a million points are no drawing.
-  if (!dark && render::is_vector(drawing)) {
+  const bool lines = render::is_vector(drawing);
+  if (lines && !dark) {
     writers_.run([this, file, drawing] {
       files::write_text(images_ / (file + ".svg"), render::encode_svg(drawing));
       files::write_text(images_ / (file + ".pdf"), render::encode_pdf(drawing));
     });
   }
   const auto image = std::make_shared<const render::Image>(renderer_.render(drawing));
-  writers_.run([this, file, index, dark, image] {
-    std::string png = image->encode_png();
+  writers_.run([this, file, index, dark, lines, image] {
+    const std::string png = image->encode_png();
     files::write_text(images_ / (file + ".png"), png);
+    // A page of many maps would be several times as large with them as PNG.
+    std::string uri =
+        lines ? data_uri("image/png", png) : data_uri("image/webp", image->encode_webp());
     const std::lock_guard lock(figures_mutex_);
-    (dark ? figures_[index].dark_png : figures_[index].light_png) = std::move(png);
+    (dark ? figures_[index].dark : figures_[index].light) = std::move(uri);
   });
 }
 

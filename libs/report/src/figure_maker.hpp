@@ -34,9 +34,16 @@ class FigureMaker {
   template <typename Draw>
   void add(const std::string& section, const std::string& name, const std::string& text,
            const Draw& draw, const std::string& replaced_by = {}) {
+    add_sized(section, name, text, draw, replaced_by, 1);
+  }
+
+  /// The same in a part of the usual size, 1600 x 1000.
+  template <typename Draw>
+  void add_sized(const std::string& section, const std::string& name, const std::string& text,
+                 const Draw& draw, const std::string& replaced_by, double share) {
     const std::size_t index = begin({name, section, text, replaced_by, {}, {}});
-    finish(draw(light_), name, index, false);
-    finish(draw(dark_), name + "_dark", index, true);
+    finish(draw(sized(light_, share)), name, index, false);
+    finish(draw(sized(dark_, share)), name + "_dark", index, true);
     picture_drawn_(name);
   }
 
@@ -44,6 +51,7 @@ class FigureMaker {
   std::vector<Figure> take();
 
  private:
+  static render::Style sized(render::Style style, double share);
   std::size_t begin(Figure figure);
   void finish(const render::Drawing& drawing, const std::string& file, std::size_t index,
               bool dark);

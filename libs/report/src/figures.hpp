@@ -21,8 +21,8 @@ struct Figure {
   std::string caption;  ///< below it, one sentence
   /// The view that shows the same interactively, in whose absence it is seen: "3d", "charts", "".
   std::string replaced_by;
-  std::string light_png;
-  std::string dark_png;
+  std::string light;  ///< data URIs of both, as the page holds them
+  std::string dark;
 };
 
 /// Draws every picture that the run has data for and writes them to images/NAME.png and

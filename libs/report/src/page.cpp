@@ -5,7 +5,6 @@
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/text_file.hpp"
 
-#include "data_uri.hpp"
 #include "web_libraries.hpp"
 
 namespace traverse::report {
@@ -29,8 +28,8 @@ void add_figures(const std::vector<Figure>& figures, Model& model) {
       entry.set("name", figure.name);
       entry.set("caption", figure.caption);
       entry.set("replaced_by", figure.replaced_by);
-      entry.set("light", png_data_uri(figure.light_png));
-      entry.set("dark", png_data_uri(figure.dark_png));
+      entry.set("light", figure.light);
+      entry.set("dark", figure.dark);
       list.push_back(entry);
     }
     model.page.set("figures_" + section, list);

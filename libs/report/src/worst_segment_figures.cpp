@@ -12,6 +12,7 @@ namespace traverse::report {
 
 namespace {
 
+constexpr double kSize = 0.6;     // of a full picture: a page has five of them
 constexpr double kAround_m = 30;  // of the map around the segment
 
 struct Points {
@@ -63,18 +64,20 @@ void add_worst_segment_figures(const RunData& run, const WorstSegments& worst, F
     const Points near = points_around(map, way);
     const std::string frames =
         fmt::format("frames {} to {}", number[segment.first], number[segment.last]);
-    maker.add("worst", fmt::format("worst-segment-{}", k + 1),
-              fmt::format("Number {} of the worst segments, {}: the map around it, by height, and "
-                          "the estimated way.",
-                          k + 1, frames),
-              [&](const render::Style& style) {
-                return render::map_from_above(
-                    {near.x, near.y, near.z, Eigen::Vector3d::Zero()}, {}, &way,
-                    maker.caption(fmt::format("Worst segment {}", k + 1),
-                                  fmt::format("{}: {} {} {}", frames, worst.measure,
-                                              short_number(segment.value), worst.unit)),
-                    style);
-              });
+    maker.add_sized(
+        "worst", fmt::format("worst-segment-{}", k + 1),
+        fmt::format("Number {} of the worst segments, {}: the map around it, by height, and "
+                    "the estimated way.",
+                    k + 1, frames),
+        [&](const render::Style& style) {
+          return render::map_from_above(
+              {near.x, near.y, near.z, Eigen::Vector3d::Zero()}, {}, &way,
+              maker.caption(fmt::format("Worst segment {}", k + 1),
+                            fmt::format("{}: {} {} {}", frames, worst.measure,
+                                        short_number(segment.value), worst.unit)),
+              style);
+        },
+        {}, kSize);
   }
 }
 
