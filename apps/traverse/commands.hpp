@@ -8,6 +8,7 @@ class App;
 /// that does the work. Errors are thrown and reported by main(); no algorithm stands here.
 namespace traverse::app {
 
+void add_compare(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_evaluate(CLI::App& app);
 void add_info(CLI::App& app);
