@@ -87,11 +87,15 @@
     // The way: a ribbon as wide as a car, flat as the pose has it, and a line for the distance.
     const ribbon = new THREE.BufferGeometry();
     const edge = new Float32Array(6 * traverse.poses);
+    const rim = new Float32Array(6 * traverse.poses);
     const line = new Float32Array(3 * traverse.poses);
     const index = [];
     for (let i = 0; i < traverse.poses; ++i) {
       const p = at(estimate.p, i);
-      const side = new THREE.Vector3(0, 0.45, 0).applyQuaternion(turn(i));
+      const side = new THREE.Vector3(0, 0.6, 0).applyQuaternion(turn(i));
+      const below = p.clone().sub(new THREE.Vector3(0, 0, 0.05));
+      below.clone().addScaledVector(side, 1.5).toArray(rim, 6 * i);
+      below.clone().addScaledVector(side, -1.5).toArray(rim, 6 * i + 3);
       p.clone().add(side).toArray(edge, 6 * i);
       p.clone().sub(side).toArray(edge, 6 * i + 3);
       p.toArray(line, 3 * i);
@@ -102,6 +106,12 @@
     const ribbonColour = new THREE.BufferAttribute(new Uint8Array(6 * traverse.poses), 3, true);
     ribbon.setAttribute("color", ribbonColour);
     world.add(new THREE.Mesh(ribbon, new THREE.MeshBasicMaterial({ vertexColors: THREE.VertexColors, side: THREE.DoubleSide })));
+    // A rim that lifts it off the map, which may have the same colours.
+    const rimGeometry = new THREE.BufferGeometry();
+    rimGeometry.setAttribute("position", new THREE.BufferAttribute(rim, 3));
+    rimGeometry.setIndex(index);
+    const rimMaterial = new THREE.MeshBasicMaterial({ side: THREE.DoubleSide });
+    world.add(new THREE.Mesh(rimGeometry, rimMaterial));
     const thread = new THREE.BufferGeometry();
     thread.setAttribute("position", new THREE.BufferAttribute(line, 3));
     const threadColour = new THREE.BufferAttribute(new Uint8Array(3 * traverse.poses), 3, true);
@@ -170,6 +180,7 @@
     };
     const theme = () => {
       world.background = new THREE.Color(traverse.dark.matches ? 0x15171b : 0xffffff);
+      rimMaterial.color.set(traverse.dark.matches ? 0xffffff : 0x1c1d21);
       referenceMaterial.color.set(traverse.dark.matches ? 0xdddddd : 0x222222);
       dirty = true;
     };

@@ -119,14 +119,12 @@ std::size_t shown_width(const std::string& text) {
 /// A table of the JSON in aligned columns.
 std::string terminal_table(const Json& table) {
   if (table.at("rows").empty()) return {};
-  std::vector<std::vector<std::string>> lines;
-  auto& head = lines.emplace_back();
-  for (const Json& name : table.at("columns")) head.push_back(name);
+  std::vector<std::vector<std::string>> lines{table.at("columns")};
   for (const Json& row : table.at("rows")) {
     auto& line = lines.emplace_back();
     for (const Json& value : row) line.push_back(text_cell(value));
   }
-  std::vector<std::size_t> widths(head.size(), 0);
+  std::vector<std::size_t> widths(lines.front().size(), 0);
   for (const auto& line : lines) {
     for (std::size_t k = 0; k < line.size(); ++k) {
       widths[k] = std::max(widths[k], shown_width(line[k]));

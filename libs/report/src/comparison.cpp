@@ -230,7 +230,7 @@ void add_comparison_charts(const std::vector<ComparedRun>& runs, Model& model) {
                       {"pose", nullptr},
                       {"x", nullptr},
                       {"x_name", nullptr},
-                      {"log", false},
+                      {"log", by_frame},
                       {"stacked", false},
                       {"points", false},
                       {"level", nullptr},

@@ -24,7 +24,7 @@ std::string interval_text(const RunFigure& figure) {
   if (!figure.interval) return figure.no_interval;
   return fmt::format("{} to {} ({} %, blocks of {})", short_number(figure.interval->low),
                      short_number(figure.interval->high),
-                     short_number(100 * figure.interval->confidence),
+                     100 * figure.interval->confidence,
                      figure.interval->block_length);
 }
 
