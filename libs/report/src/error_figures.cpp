@@ -11,6 +11,7 @@
 #include "traverse/render/pictures/map_from_above.hpp"
 #include "traverse/render/pictures/time_series.hpp"
 #include "traverse/render/pictures/trajectory_coloured.hpp"
+#include "traverse/render/pictures/violins.hpp"
 
 #include "number_text.hpp"
 #include "series.hpp"
@@ -97,6 +98,56 @@ void add_error_over_time(const RunData& run, FigureMaker& maker) {
             });
 }
 
+/// Box and violin of the absolute error and of the relative errors over each number of frames.
+void add_spreads(const evaluation::Comparison& comparison, FigureMaker& maker) {
+  std::vector<render::Sampled> distributions;
+  if (const auto* ape = find_ape(comparison, Relation::kTranslation)) {
+    distributions.push_back({ape->values, "APE, position", "m"});
+  }
+  for (const auto& rpe : comparison.rpe) {
+    if (rpe.relation != Relation::kTranslation) continue;
+    distributions.push_back(
+        {rpe.values, fmt::format("RPE over {}", to_text(rpe.options.delta)), "m"});
+  }
+  maker.add("error", "error-violins",
+            "How absolute and relative errors are spread: density, quartiles and median, whiskers "
+            "from 5 to 95 %.",
+            [&](const Style& style) {
+              return render::violins(
+                  distributions,
+                  maker.caption("Distributions of the errors", ape_statistic(comparison)), style);
+            });
+}
+
+/// The way coloured by the drift of the KITTI segments that each pose lies in.
+void add_kitti_segments(const RunData& run, const evaluation::KittiDrift& kitti,
+                        FigureMaker& maker) {
+  const auto& matches = run.evaluation.comparison->association.matches;
+  std::vector<double> sums(matches.size(), 0);
+  std::vector<double> counts(matches.size(), 0);
+  for (const auto& segment : kitti.segments) {
+    for (std::size_t k = segment.first; k <= segment.last; ++k) {
+      sums[k] += segment.translation_percent;
+      ++counts[k];
+    }
+  }
+  // Nothing over nothing is NaN: no segment covers the pose.
+  for (std::size_t k = 0; k < sums.size(); ++k) sums[k] /= counts[k];
+  const std::vector<double> values = for_each_pose(run, sums);
+  const geometry::Trajectory estimate = aligned_estimate(run);
+  maker.add("kitti", "kitti-segments",
+            "The way, coloured by the mean translational drift of the segments through each pose.",
+            [&](const Style& style) {
+              return render::trajectory_coloured(
+                  estimate,
+                  {values, "drift of the segments here", "%", render::ColourMap::kViridis},
+                  run.reference ? &*run.reference : nullptr,
+                  maker.caption("KITTI drift along the way",
+                                fmt::format("{} segments of 100 to 800 m", kitti.segments.size())),
+                  style);
+            });
+}
+
 void add_kitti_drift(const evaluation::KittiDrift& kitti, FigureMaker& maker) {
   if (kitti.by_length.size() < 2) return;  // a single point says no more than the table
   std::vector<render::DriftAtLength> points;
@@ -149,7 +200,11 @@ void add_error_figures(const RunData& run, FigureMaker& maker) {
   add_coloured_trajectory(run, maker);
   add_error_over_time(run, maker);
   add_association(run, maker);
-  if (comparison.kitti) add_kitti_drift(*comparison.kitti, maker);
+  add_spreads(comparison, maker);
+  if (comparison.kitti) {
+    add_kitti_drift(*comparison.kitti, maker);
+    add_kitti_segments(run, *comparison.kitti, maker);
+  }
 }
 
 }  // namespace traverse::report

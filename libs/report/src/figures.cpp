@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "traverse/render/pictures/map_from_above.hpp"
+#include "traverse/render/pictures/map_in_perspective.hpp"
 #include "traverse/render/pictures/scan_features.hpp"
 #include "traverse/render/pictures/stage_times.hpp"
 #include "traverse/render/pictures/time_series.hpp"
@@ -81,6 +82,14 @@ void add_maps(const RunData& run, FigureMaker& maker) {
       [&](const Style& style) {
         return render::map_from_above(points, {}, &run.estimate,
                                       maker.caption("Map by height", map_statistic(run)), style);
+      },
+      "3d");
+  maker.add(
+      "map", "map-perspective", "The map from the side and above, coloured by height.",
+      [&](const Style& style) {
+        return render::map_in_perspective(points, {}, run.estimate,
+                                          maker.caption("Map in perspective", map_statistic(run)),
+                                          style);
       },
       "3d");
   const auto [least, most] = std::minmax_element(intensity.begin(), intensity.end());
