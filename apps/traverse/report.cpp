@@ -38,6 +38,11 @@ void add_report(CLI::App& app) {
   report->add_flag("!--no-pictures", arguments->options.pictures,
                    "no images: the page has its interactive views alone");
   report
+      ->add_option("--picture-width", arguments->options.picture_width,
+                   "pixels of a picture; the page grows with it")
+      ->check(CLI::Range(480, 8192))
+      ->capture_default_str();
+  report
       ->add_option("--export", arguments->options.exports,
                    "folder for every table of the report as CSV and LaTeX")
       ->type_name("DIR");

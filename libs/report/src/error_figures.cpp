@@ -143,7 +143,7 @@ void add_kitti_segments(const RunData& run, const evaluation::KittiDrift& kitti,
                   {values, "drift of the segments here", "%", render::ColourMap::kViridis},
                   run.reference ? &*run.reference : nullptr,
                   maker.caption("KITTI drift along the way",
-                                fmt::format("{} segments of 100 to 800 m", kitti.segments.size())),
+                                plural(kitti.segments.size(), "segment") + " of 100 to 800 m"),
                   style);
             });
 }

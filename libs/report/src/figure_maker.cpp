@@ -11,10 +11,13 @@
 
 namespace traverse::report {
 
-FigureMaker::FigureMaker(const RunData& run,
+FigureMaker::FigureMaker(const RunData& run, int width,
                          const std::function<void(const std::string&)>& picture_drawn)
     : run_(run), picture_drawn_(picture_drawn), images_(pipeline::RunFolder{run.folder}.images()) {
   files::make_writable_folder(images_);
+  light_.height = light_.height * width / light_.width;
+  light_.width = width;
+  dark_ = light_;
   dark_.theme = render::dark_theme();
 }
 

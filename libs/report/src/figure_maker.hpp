@@ -22,7 +22,8 @@ namespace traverse::report {
 /// compressed and written by other threads.
 class FigureMaker {
  public:
-  FigureMaker(const RunData& run, const std::function<void(const std::string&)>& picture_drawn);
+  FigureMaker(const RunData& run, int width,
+              const std::function<void(const std::string&)>& picture_drawn);
   ~FigureMaker();
   FigureMaker(const FigureMaker&) = delete;
   FigureMaker& operator=(const FigureMaker&) = delete;
@@ -37,7 +38,7 @@ class FigureMaker {
     add_sized(section, name, text, draw, replaced_by, 1);
   }
 
-  /// The same in a part of the usual size, 1600 x 1000.
+  /// The same in a part of the usual size.
   template <typename Draw>
   void add_sized(const std::string& section, const std::string& name, const std::string& text,
                  const Draw& draw, const std::string& replaced_by, double share) {

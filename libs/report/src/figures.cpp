@@ -19,6 +19,7 @@
 
 #include "error_figures.hpp"
 #include "figure_maker.hpp"
+#include "nearest_pose.hpp"
 #include "number_text.hpp"
 #include "series.hpp"
 
@@ -71,6 +72,51 @@ std::string map_statistic(const RunData& run) {
   return score ? fmt::format("{}; map entropy {}", points, short_number(score->mme)) : points;
 }
 
+/// The points between two heights above the sensor where it passed nearest: a plan of what stands
+/// beside the way, on slopes too.
+struct Slice {
+  std::vector<float> x, y, z;
+};
+
+Slice slice_of(const RunData& run, const std::vector<float>& x, const std::vector<float>& y,
+               const std::vector<float>& z, double low_m, double high_m) {
+  std::vector<Eigen::Vector3f> points;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const Eigen::Vector3f p(x[i], y[i], z[i]);
+    if (p.allFinite()) points.push_back(p);
+  }
+  const std::size_t stride = 1 + run.estimate.size() / std::numeric_limits<std::uint16_t>::max();
+  const std::vector<std::uint16_t> nearest = nearest_poses(points, run.estimate, stride);
+  Slice slice;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double above =
+        double{points[i].z()} - run.estimate.pose(nearest[i] * stride).translation.z();
+    if (above < low_m || above > high_m) continue;
+    slice.x.push_back(points[i].x());
+    slice.y.push_back(points[i].y());
+    slice.z.push_back(points[i].z());
+  }
+  return slice;
+}
+
+void add_slice(const RunData& run, const std::vector<float>& x, const std::vector<float>& y,
+               const std::vector<float>& z, FigureMaker& maker) {
+  constexpr double kLow_m = -0.5;
+  constexpr double kHigh_m = 0.5;
+  const Slice slice = slice_of(run, x, y, z, kLow_m, kHigh_m);
+  maker.add("map", "map-slice",
+            "A slice of the map at the height of the sensor, half a metre up and down: walls and "
+            "poles that several scans put in one place are thin.",
+            [&](const Style& style) {
+              return render::map_from_above(
+                  {slice.x, slice.y, slice.z, Eigen::Vector3d::Zero()}, {}, &run.estimate,
+                  maker.caption("Slice of the map at the height of the sensor",
+                                fmt::format("{} of {} points, ±0.5 m", count_text(slice.x.size()),
+                                            count_text(x.size()))),
+                  style);
+            });
+}
+
 void add_maps(const RunData& run, FigureMaker& maker) {
   const std::vector<float> x = floats(run.map, "x");
   const std::vector<float> y = floats(run.map, "y");
@@ -92,6 +138,7 @@ void add_maps(const RunData& run, FigureMaker& maker) {
                                           style);
       },
       "3d");
+  add_slice(run, x, y, z, maker);
   const auto [least, most] = std::minmax_element(intensity.begin(), intensity.end());
   if (intensity.empty() || *least == *most) return;
   const render::PointValues by_intensity{intensity, "intensity", "", render::ColourMap::kCividis};
@@ -201,9 +248,9 @@ void add_timing(const RunData& run, FigureMaker& maker) {
 
 }  // namespace
 
-std::vector<Figure> draw_figures(const RunData& run, const WorstSegments& worst,
+std::vector<Figure> draw_figures(const RunData& run, const WorstSegments& worst, int width,
                                  const std::function<void(const std::string&)>& picture_drawn) {
-  FigureMaker maker(run, picture_drawn);
+  FigureMaker maker(run, width, picture_drawn);
   add_trajectories(run, maker);
   if (run.evaluation.comparison) add_error_figures(run, maker);
   add_worst_segment_figures(run, worst, maker);

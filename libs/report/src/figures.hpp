@@ -25,10 +25,10 @@ struct Figure {
   std::string dark;
 };
 
-/// Draws every picture that the run has data for and writes them to images/NAME.png and
-/// images/NAME_dark.png; those without point clouds also to images/NAME.svg and images/NAME.pdf.
-/// \throws files::OutputError
-std::vector<Figure> draw_figures(const RunData& run, const WorstSegments& worst,
+/// Draws every picture that the run has data for, `width` pixels wide, and writes them to
+/// images/NAME.png and images/NAME_dark.png; those without point clouds also to images/NAME.svg and
+/// images/NAME.pdf. \throws files::OutputError
+std::vector<Figure> draw_figures(const RunData& run, const WorstSegments& worst, int width,
                                  const std::function<void(const std::string&)>& picture_drawn);
 
 }  // namespace traverse::report

@@ -3,15 +3,14 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <vector>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
-#include <nanoflann.hpp>
 
 #include "traverse/render/colour_map.hpp"
 
+#include "nearest_pose.hpp"
 #include "packed_points.hpp"
 #include "series.hpp"
 
@@ -23,24 +22,6 @@ namespace {
 constexpr std::size_t kMostPoints = 300'000;
 constexpr int kColours = 64;
 constexpr std::size_t kMostPoses = std::numeric_limits<std::uint16_t>::max();
-
-/// Positions as nanoflann reads them.
-struct PosePositions {
-  std::vector<Eigen::Vector3f> points;
-
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  float kdtree_get_pt(std::size_t index, std::size_t axis) const {
-    return points[index][static_cast<Eigen::Index>(axis)];
-  }
-  template <typename Box>
-  bool kdtree_get_bbox(Box& /*box*/) const {
-    return false;
-  }
-};
-
-using PoseTree =
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, PosePositions>,
-                                        PosePositions, 3, std::uint32_t>;
 
 ScenePoints map_points(const dataset::PointCloud& map) {
   const auto floats = [&](const char* field) {
@@ -61,27 +42,6 @@ ScenePoints map_points(const dataset::PointCloud& map) {
     }
   }
   return points;
-}
-
-/// For each point the pose that came nearest to it; of very long runs every few poses are looked
-/// at.
-std::vector<std::uint16_t> nearest_poses(const ScenePoints& points,
-                                         const geometry::Trajectory& trajectory,
-                                         std::size_t stride) {
-  PosePositions positions;
-  for (std::size_t i = 0; i < trajectory.size(); i += stride) {
-    positions.points.push_back(trajectory.pose(i).translation.cast<float>());
-  }
-  const PoseTree tree(3, positions, nanoflann::KDTreeSingleIndexAdaptorParams(10));
-  std::vector<std::uint16_t> nearest;
-  nearest.reserve(points.positions.size());
-  for (const Eigen::Vector3f& p : points.positions) {
-    std::uint32_t index = 0;
-    float squared_distance = 0;
-    tree.knnSearch(p.data(), 1, &index, &squared_distance);
-    nearest.push_back(static_cast<std::uint16_t>(index));
-  }
-  return nearest;
 }
 
 Json positions_json(const std::vector<Eigen::Vector3d>& positions) {
@@ -142,7 +102,7 @@ std::string add_scene(const RunData& run, Model& model) {
   const ScenePoints all = map_points(run.map);
   const ScenePoints points = thinned(all, kMostPoints, voxel_m);
   const std::size_t stride = 1 + run.estimate.size() / kMostPoses;
-  const PackedPoints packed = pack(points, nearest_poses(points, run.estimate, stride));
+  const PackedPoints packed = pack(points, nearest_poses(points.positions, run.estimate, stride));
   const Eigen::Vector3d& origin = packed.origin_m;
   model.json["scene"] = {{"points",
                           {{"count", packed.count},

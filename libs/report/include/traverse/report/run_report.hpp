@@ -11,6 +11,7 @@ namespace traverse::report {
 
 struct RunReportOptions {
   bool pictures = true;                          ///< draw images/*.png and put them into the page
+  int picture_width = 1600;                      ///< pixels; up to 8192 for print
   std::optional<std::filesystem::path> budget;   ///< limits to check; shown on the page
   std::optional<std::filesystem::path> exports;  ///< folder for every table as CSV and LaTeX
   /// Called with the name of each picture that is finished, from one thread at a time.
