@@ -22,7 +22,7 @@ Drawing lines() {
       {10, 10}, {50, 50}, {std::numeric_limits<double>::quiet_NaN(), 0}, {60, 10}, {90, 90}};
   line.colour = Colour::hex(0x0072B2);
   line.dashes = {4, 2};
-  drawing.items.push_back({line, Rect{0, 0, 100, 100}});
+  drawing.items.push_back({line, Rect{0, 0, 80, 80}});
   drawing.items.push_back({Disc{{150, 50}, 10, Colour::hex(0xD55E00)}, std::nullopt});
   drawing.items.push_back(
       {Polygon{{{110, 10}, {130, 10}, {120, 30}}, Colour::hex(0x009E73), 0.5}, std::nullopt});
