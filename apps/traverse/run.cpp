@@ -92,6 +92,7 @@ void run_recording(RunArguments& arguments, const std::vector<std::string>& comm
   }
   const InstalledFiles installed = find_installed_files();
   const pipeline::Preset preset = checked_preset(arguments.preset, installed.share);
+  if (arguments.budget) report::require_valid_budget(*arguments.budget);
   const std::unique_ptr<dataset::Source> source = arguments.recording.open();
   pipeline::Pipeline pipeline = pipeline::make_pipeline(preset, source->info(), arguments.threads);
 

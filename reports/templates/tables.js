@@ -42,16 +42,17 @@
   const csv = (table) => [table.columns, ...table.rows].map((row) => row.map(csvCell).join(",") + "\r\n").join("");
   const kLatex = { "\\": "\\textbackslash{}", "~": "\\textasciitilde{}", "^": "\\textasciicircum{}",
     "<": "\\textless{}", ">": "\\textgreater{}", "\n": " " };
-  const latexCell = (value) => {
-    if (value === null) return "--";
-    if (typeof value === "number") return traverse.short(value).replace("−", "$-$");
-    return value.replace(/[&%$#_{}\\~^<>\n]/g, (c) => kLatex[c] ?? `\\${c}`);
-  };
-  const latex = (table) => {
-    const columns = table.columns.map((_, k) => (typeof table.rows[0]?.[k] === "number" ? "r" : "l")).join("");
-    const row = (cells) => `${cells.map(latexCell).join(" & ")} \\\\\n`;
+  const latexText = (text) => text.replace(/[&%$#_{}\\~^<>\n]/g, (c) => kLatex[c] ?? `\\${c}`);
+  // Numbers as the page shows them.
+  const latexCell = (cell) => (cell.classList.contains("n")
+    ? cell.textContent.replace(/\u2009/g, "").replace("−", "$-$").replace("–", "--")
+    : latexText(cell.textContent));
+  const latex = (table, element) => {
+    const rows = [...element.tBodies[0].rows].map((row) => [...row.cells]);
+    const columns = [...element.tHead.rows[0].cells].map((cell) => (cell.classList.contains("n") ? "r" : "l")).join("");
     return `% ${table.title}; needs \\usepackage{booktabs}\n\\begin{tabular}{${columns}}\n\\toprule\n` +
-      `${row(table.columns)}\\midrule\n${table.rows.map(row).join("")}\\bottomrule\n\\end{tabular}\n`;
+      `${table.columns.map(latexText).join(" & ")} \\\\\n\\midrule\n` +
+      `${rows.map((row) => `${row.map(latexCell).join(" & ")} \\\\\n`).join("")}\\bottomrule\n\\end{tabular}\n`;
   };
 
   const save = (name, text) => {
@@ -69,7 +70,7 @@
     const bar = document.createElement("div");
     bar.className = "exports";
     bar.append(button("CSV", () => save(`${id}.csv`, csv(content))),
-      button("LaTeX", () => save(`${id}.tex`, latex(content))));
+      button("LaTeX", () => save(`${id}.tex`, latex(content, table))));
     table.closest(".table").append(bar);
   };
 

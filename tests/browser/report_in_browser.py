@@ -1,5 +1,6 @@
 """report_in_browser.py PROGRAM MAKE_RUN [CASE...]: opens reports in a headless Chromium and uses
 them as a reader would. Reports of real recordings need TRAVERSE_TEST_DATA and skip without."""
+import csv
 import json
 import os
 import pathlib
@@ -136,12 +137,37 @@ def use_page(browser, report):
     return browser.js("document.getElementById('measured').textContent")
 
 
+def cells_of(text):
+    def value(cell):
+        try:
+            return float(cell)
+        except ValueError:
+            return cell
+    return [[value(cell) for cell in row] for row in csv.reader(text.splitlines())]
+
+
+def export_tables(browser, folder):
+    """The buttons of a table give what the command writes."""
+    browser.js("URL.createObjectURL = (blob) => { window.saved = blob; return 'data:,'; }")
+    for table in ("ape", "configuration", "timing"):
+        for number, ending in enumerate(("csv", "tex")):
+            browser.js(f"document.querySelectorAll('#table-{table} .exports button')[{number}].click()")
+            text = browser.js("window.saved.text()")
+            with open(pathlib.Path(folder, f"{table}.{ending}"), newline="") as file:
+                written = file.read()
+            if ending == "csv":  # the same numbers, though 7e-06 may stand for 0.000007
+                assert cells_of(text) == cells_of(written), table
+            else:
+                assert text == written, (table, text, written)
+
+
 def test_made_run(folder):
-    report = made_report(folder)
+    report = made_report(folder, "--export", os.path.join(folder, "tables"))
     with Browser() as browser:
         browser.open(report)
         is_ready(browser)
         use_page(browser, report)
+        export_tables(browser, os.path.join(folder, "tables"))
         assert_sound(browser, report)
         assert browser.js("document.querySelectorAll('main script, h1 script').length") == 0
         assert "<script>alert('x')</script>" in browser.js("document.title")

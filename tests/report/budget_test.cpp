@@ -49,5 +49,11 @@ TEST_F(Budget, RefusesUnknownFiguresAndEmptyBudgets) {
   EXPECT_THROW(check("{}\n"), files::InputError);
 }
 
+TEST(ShippedBudgets, AreValid) {
+  for (const auto& file : std::filesystem::directory_iterator(TRAVERSE_SHARE_DIR "/budgets")) {
+    EXPECT_NO_THROW(require_valid_budget(file.path())) << file.path();
+  }
+}
+
 }  // namespace
 }  // namespace traverse::report

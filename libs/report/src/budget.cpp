@@ -75,6 +75,8 @@ BudgetResult check_figures(const std::filesystem::path& file,
   return result;
 }
 
+void require_valid_budget(const std::filesystem::path& budget) { check_figures(budget, {}); }
+
 BudgetResult check_budget(const std::filesystem::path& budget,
                           const std::filesystem::path& run_folder) {
   return check_figures(budget, run_figures(read_run(run_folder)));

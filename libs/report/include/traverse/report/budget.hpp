@@ -32,6 +32,10 @@ struct BudgetResult {
   std::string table() const;
 };
 
+/// Reads a budget without a run, to tell early what is wrong with it.
+/// \throws files::InputError for an unknown figure, a value that is no number, or no limit at all.
+void require_valid_budget(const std::filesystem::path& budget);
+
 /// A run against a budget: a YAML file of "figure: at most". share/budgets/ has examples;
 /// docs/report-json.md lists the figures.
 /// \throws files::InputError for a budget with an unknown figure, and as write_run_report() does.
