@@ -11,6 +11,7 @@ namespace traverse::app {
 void add_batch(CLI::App& app);
 void add_bench_factors(CLI::App& app);
 void add_check_jacobians(CLI::App& app);
+void add_compare(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_evaluate(CLI::App& app);
 void add_info(CLI::App& app);

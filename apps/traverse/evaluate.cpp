@@ -22,6 +22,7 @@
 #include "traverse/files/numbers.hpp"
 #include "traverse/files/text_file.hpp"
 
+#include "budget_option.hpp"
 #include "commands.hpp"
 
 namespace traverse::app {
@@ -54,6 +55,7 @@ struct Arguments {
   bool all_pairs = false;
   evaluation::PairsFrom pairs_from = evaluation::PairsFrom::kEstimate;
   std::optional<fs::path> json;
+  std::optional<fs::path> budget;
 };
 
 template <typename Enum, std::size_t N>
@@ -180,6 +182,7 @@ void evaluate(const Arguments& arguments) {
 
   fmt::print("{}", to_table(evaluation));
   if (arguments.json) files::write_text(*arguments.json, to_json(evaluation));
+  if (arguments.budget) require_kept(report::check_budget(*arguments.budget, evaluation));
 }
 
 }  // namespace
@@ -242,6 +245,7 @@ void add_evaluate(CLI::App& app) {
       .add_option("--json", arguments->json,
                   "write every figure with the values behind it to this file")
       ->type_name("FILE");
+  add_budget_option(command, arguments->budget);
   command.footer(kExamples);
   command.callback([arguments] { evaluate(*arguments); });
 }

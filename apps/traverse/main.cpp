@@ -9,6 +9,7 @@ constexpr const char* kExamples = R"(Examples:
   traverse info DRIVE                              what is in a recording
   traverse run DRIVE -o RUN                        trajectory, map, pictures and RUN/report.html
   traverse evaluate RUN/trajectory.tum --reference RUN/reference.tum --rpe 10f
+  traverse compare RUN OTHER_RUN                   what is better, and whether that is sure
   traverse convert DRIVE drive.rawlog              for MRPT's own tools
 
 `traverse COMMAND --help` explains a command. Exit status: 0 done, 1 failed, 2 wrong usage.)";
@@ -24,6 +25,7 @@ int main(int argc, char** argv) {
   traverse::app::add_batch(app);
   traverse::app::add_evaluate(app);
   traverse::app::add_report(app);
+  traverse::app::add_compare(app);
   traverse::app::add_info(app);
   traverse::app::add_convert(app);
   traverse::app::add_simulate(app);

@@ -6,20 +6,53 @@
 
 #include "traverse/pipeline/run_folder.hpp"
 
+#include "budget_option.hpp"
 #include "commands.hpp"
 #include "installed_files.hpp"
 #include "report_progress.hpp"
 
 namespace traverse::app {
 
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  traverse report RUN                                    report.html, report.json, images/
+  traverse report RUN --no-pictures                      the interactive page alone, faster
+  traverse report RUN --budget share/budgets/kitti.yaml  also says whether limits are kept
+  traverse report RUN --export tables                    every table as CSV and LaTeX)";
+
+struct ReportArguments {
+  std::string folder;
+  report::RunReportOptions options;
+};
+
+}  // namespace
+
 void add_report(CLI::App& app) {
-  auto folder = std::make_shared<std::string>();
-  CLI::App* report = app.add_subcommand("report", "draw the pictures and write report.html again");
-  report->add_option("RUN", *folder, "run folder")->required()->check(CLI::ExistingDirectory);
-  report->footer("Example:\n  traverse report RUN");
-  report->callback([folder] {
-    write_report_with_progress(*folder, find_installed_files().templates);
-    fmt::print("{}\n", pipeline::RunFolder{*folder}.report().string());
+  auto arguments = std::make_shared<ReportArguments>();
+  CLI::App* report = app.add_subcommand(
+      "report", "write report.html and report.json of a run again, with pictures");
+  report->add_option("RUN", arguments->folder, "run folder")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  report->add_flag("!--no-pictures", arguments->options.pictures,
+                   "no images: the page has its interactive views alone");
+  report
+      ->add_option("--picture-width", arguments->options.picture_width,
+                   "pixels of a picture; the page grows with it")
+      ->check(CLI::Range(480, 8192))
+      ->capture_default_str();
+  report
+      ->add_option("--export", arguments->options.exports,
+                   "folder for every table of the report as CSV and LaTeX")
+      ->type_name("DIR");
+  add_budget_option(*report, arguments->options.budget);
+  report->footer(kExamples);
+  report->callback([arguments] {
+    const auto budget = write_report_with_progress(
+        arguments->folder, find_installed_files().templates, arguments->options);
+    fmt::print("{}\n", pipeline::RunFolder{arguments->folder}.report().string());
+    if (budget) require_kept(*budget);
   });
 }
 

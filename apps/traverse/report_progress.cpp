@@ -3,20 +3,19 @@
 #include <cstddef>
 #include <string>
 
-#include "traverse/report/run_report.hpp"
-
 #include "progress_bar.hpp"
 
 namespace traverse::app {
 
-void write_report_with_progress(const std::filesystem::path& run_folder,
-                                const std::filesystem::path& templates) {
+std::optional<report::BudgetResult> write_report_with_progress(
+    const std::filesystem::path& run_folder, const std::filesystem::path& templates,
+    report::RunReportOptions options) {
   ProgressBar bar("report", 0, "pictures");
   std::size_t pictures = 0;
-  report::RunReportOptions options;
   options.picture_drawn = [&](const std::string&) { bar.update(++pictures); };
-  report::write_run_report(run_folder, templates, options);
-  bar.finish();
+  auto budget = report::write_run_report(run_folder, templates, options);
+  if (options.pictures) bar.finish();
+  return budget;
 }
 
 }  // namespace traverse::app

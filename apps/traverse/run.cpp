@@ -15,6 +15,7 @@
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 
+#include "budget_option.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "factor_measurement.hpp"
@@ -61,6 +62,7 @@ struct RunArguments {
   std::optional<std::size_t> last;
   int threads = 1;
   bool report = true;
+  std::optional<std::filesystem::path> budget;
   bool hash = true;
   bool bench_factors = false;
 };
@@ -103,6 +105,7 @@ void run_recording(RunArguments& arguments, const std::vector<std::string>& comm
   }
   const InstalledFiles installed = find_installed_files();
   const pipeline::Preset preset = checked_preset(arguments.preset, installed.share);
+  if (arguments.budget) report::require_valid_budget(*arguments.budget);
   const std::unique_ptr<dataset::Source> source = arguments.recording.open();
   pipeline::Pipeline pipeline = pipeline::make_pipeline(preset, source->info(), arguments.threads);
 
@@ -125,13 +128,21 @@ void run_recording(RunArguments& arguments, const std::vector<std::string>& comm
   const pipeline::RunRecord record = pipeline::run(*source, pipeline, folder, options, observer);
 
   if (arguments.bench_factors) measure_factors(*source, record, folder);
-  if (arguments.report) write_report_with_progress(folder.path, installed.templates);
+  std::optional<report::BudgetResult> budget;
+  if (arguments.report) {
+    report::RunReportOptions report_options;
+    report_options.budget = arguments.budget;
+    budget = write_report_with_progress(folder.path, installed.templates, report_options);
+  } else if (arguments.budget) {
+    budget = report::check_budget(*arguments.budget, folder.path);
+  }
   print_run_summary(record, folder, arguments.report);
   if (!record.evaluation_error.empty()) {
     throw std::runtime_error("the run is complete, but it could not be compared with " +
                              record.reference_file.value_or("its reference") + ": " +
                              record.evaluation_error);
   }
+  if (budget) require_kept(*budget);
 }
 
 constexpr const char* kExamples = R"(Examples:
@@ -177,6 +188,7 @@ void add_run(CLI::App& app) {
   run->add_flag("--bench-factors", arguments->bench_factors,
                 "measure analytic, automatic and numeric derivatives on a frame of the run");
   run->add_flag("!--no-report", arguments->report, "no pictures and no report.html");
+  add_budget_option(*run, arguments->budget);
   run->add_flag("!--no-hash", arguments->hash, "do not compute the recording's SHA-256");
   run->callback([arguments, run] {
     if (arguments->last && *arguments->last < arguments->first) {

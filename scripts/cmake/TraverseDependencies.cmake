@@ -15,6 +15,7 @@ find_package(Ceres 2.1 REQUIRED)
 find_package(nanoflann REQUIRED)
 find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc imgcodecs freetype)
 find_package(PkgConfig REQUIRED)
+pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo cairo-svg cairo-pdf)
 pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
 pkg_check_modules(GEOGRAPHICLIB REQUIRED IMPORTED_TARGET geographiclib)
 find_path(TRAVERSE_RANDOM123 Random123/philox.h REQUIRED)  # headers only, on the system's path

@@ -12,17 +12,18 @@ using ::testing::Not;
 
 /// The section alone, with a template that shows what it was given.
 std::string rendered(const RunData& run) {
-  TemplateData page;
-  add_factors(run, page);
+  Model model;
+  add_factors(run, model);
   kainjow::mustache::mustache text(
       "{{#has_factors}}has factors{{/has_factors}} {{jacobians_kind}} {{jacobians_text}} "
       "{{jacobians_how}} {{jacobians_formulas}}\n"
-      "{{#jacobians_table}}{{#rows}}{{#cells}}{{{text}}};{{/cells}}\n{{/rows}}{{/jacobians_table}}"
+      "{{#table_jacobians}}{{#rows}}{{#cells}}{{{text}}};{{/cells}}\n{{/rows}}{{/table_jacobians}}"
       "{{{bench_how}}}\n"
-      "{{#evaluations_table}}{{#rows}}{{#cells}}{{{text}}};{{/cells}}\n{{/rows}}"
-      "{{/evaluations_table}}"
-      "{{#solves_table}}{{#rows}}{{#cells}}{{{text}}};{{/cells}}\n{{/rows}}{{/solves_table}}");
-  return text.render(page);
+      "{{#table_derivative_evaluations}}{{#rows}}{{#cells}}{{{text}}};{{/cells}}\n{{/rows}}"
+      "{{/table_derivative_evaluations}}"
+      "{{#table_derivative_solves}}{{#rows}}{{#cells}}{{{text}}};{{/cells}}\n{{/rows}}{{/"
+      "table_derivative_solves}}");
+  return text.render(model.page);
 }
 
 optimization::JacobianAudit made_audit(bool passed) {

@@ -1,25 +1,26 @@
 #include "page.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <regex>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "traverse/dataset/trajectory_files.hpp"
-#include "traverse/evaluation/evaluate.hpp"
-#include "traverse/evaluation/json.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
+#include "traverse/files/numbers.hpp"
 #include "traverse/files/text_file.hpp"
 #include "traverse/optimization/jacobian_audit.hpp"
-#include "traverse/pipeline/frame_table.hpp"
 #include "traverse/pipeline/run_folder.hpp"
-#include "traverse/pipeline/run_record.hpp"
 #include "traverse/report/run_report.hpp"
 
+#include "made_run.hpp"
+#include "number_text.hpp"
+#include "report_model.hpp"
 #include "run_data.hpp"
+#include "run_figures.hpp"
 #include "temporary_folder.hpp"
 
 namespace traverse::report {
@@ -29,67 +30,33 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using testing::TemporaryFolder;
 
-constexpr const char* kEvil = "<script>alert('x')</script> & \"quoted\"";
-
-/// A run folder of a drive along a curve, made by hand; the estimate is `error_m` off sideways.
+/// A made run in a folder of its own, and its report.
 class MadeRun {
  public:
   explicit MadeRun(double error_m, bool with_reference = true) {
-    const pipeline::RunFolder files{folder.path()};
-    geometry::Trajectory estimate;
-    geometry::Trajectory reference;
-    pipeline::FrameTable frames({"frame", "stamp_s", "registered", "degenerate_directions",
-                                 "residual_rms_m", "inlier_share", "line_matches", "plane_matches",
-                                 "eigenvalue_1", "solve_ms", "total_ms"});
-    for (int i = 0; i < 60; ++i) {
-      geometry::Pose3 pose;
-      pose.translation = {2.0 * i, 0.01 * i * i, 0};
-      const auto stamp = geometry::Stamp::from_seconds(0.1 * i);
-      reference.push_back(stamp, pose);
-      pose.translation.y() += error_m * std::sin(0.5 * i);
-      estimate.push_back(stamp, pose);
-      frames.add_row(
-          {1.0 * i, 0.1 * i, i == 0 ? 0.0 : 1.0, degenerate(i), 0.05, 0.9, 100, 500, 0.2, 4, 9});
-    }
-    dataset::write_tum(files.trajectory(), estimate);
-    frames.write_csv(files.frames());
-    evaluation::Evaluation evaluation = evaluation::evaluate(estimate);
-    if (with_reference) {
-      dataset::write_tum(files.reference(), reference);
-      evaluation = evaluation::evaluate(estimate, reference, evaluation::run_evaluation_options());
-    }
-    files::write_text(files.evaluation(), evaluation::to_json(evaluation));
-    dataset::PointCloud map;
-    map.add("x", std::vector<float>{0, 10, 20});
-    map.add("y", std::vector<float>{0, 5, -5});
-    map.add("z", std::vector<float>{0, 1, 2});
-    dataset::write_ply(files.map_points(), map);
-
-    pipeline::RunRecord record;
-    record.status = pipeline::RunStatus::kOk;
-    record.pipeline = "floam";
-    record.pipeline_description = kEvil;
-    record.recording.name = kEvil;
-    record.recording.path = kEvil;
-    record.recording.facts.push_back({kEvil, kEvil, kEvil});
-    record.settings.push_back({{"solver.huber_m", 0.2, kEvil, ""}, 0.1});
-    record.skipped.add(kEvil, kEvil);
-    record.command = {"traverse", kEvil};
-    record.frames_used = 60;
-    record.started_utc = "2026-01-02T03:04:05Z";
-    pipeline::summarise_timing(frames, record);
-    files::write_text(files.record(),
-                      to_json(record, pipeline::build_info(), pipeline::host_info()));
+    MadeRunOptions options;
+    options.error_m = error_m;
+    options.with_reference = with_reference;
+    make_run(folder.path(), options);
   }
 
-  std::string page() const { return make_page(read_run(folder.path()), {}, kTemplates); }
+  ReportModel model() const {
+    const RunData run = read_run(folder.path());
+    return make_model(run, run_figures(run), worst_segments(run), nullptr);
+  }
+  std::string page() const {
+    ReportModel report = model();
+    return make_page(report.model, report.packed_points, {}, kTemplates);
+  }
 
-  static constexpr const char* kTemplates = TRAVERSE_SOURCE_DIR "/reports/templates";
   TemporaryFolder folder;
-
- private:
-  static double degenerate(int i) { return i >= 20 && i < 25 ? 1 : 0; }
 };
+
+/// The page without the scripts that Traverse itself puts there, which may name tags and addresses.
+std::string without_scripts(const std::string& page) {
+  const auto first = page.find("</main>");
+  return page.substr(0, first);
+}
 
 TEST(Page, ShowsUntrustedTextAndNeverRunsIt) {
   const std::string page = MadeRun(0.1).page();
@@ -99,13 +66,99 @@ TEST(Page, ShowsUntrustedTextAndNeverRunsIt) {
 }
 
 TEST(Page, AsksTheNetworkForNothing) {
-  const std::string page = MadeRun(0.1).page();
+  const std::string page = without_scripts(MadeRun(0.1).page());
   const std::regex reference(R"((?:src|href|srcset|url)\s*[=(]\s*["']?([^"'\s)>]*))");
   for (std::sregex_iterator match(page.begin(), page.end(), reference), end; match != end;
        ++match) {
     const std::string target = (*match)[1];
     EXPECT_TRUE(target.starts_with("#") || target.starts_with("data:")) << target.substr(0, 80);
   }
+}
+
+/// What stands between `begin` and `end` after `from`, which is moved behind it.
+std::string between(const std::string& text, const std::string& begin, const std::string& end,
+                    std::size_t& from) {
+  const auto first = text.find(begin, from);
+  if (first == std::string::npos) return {};
+  const auto last = text.find(end, first + begin.size());
+  from = last + end.size();
+  return text.substr(first + begin.size(), last - first - begin.size());
+}
+
+TEST(Page, EveryNumberIsThatOfTheJson) {
+  const MadeRun run(0.1);
+  const std::string page = run.page();
+  std::size_t at = 0;
+  const Json json = Json::parse(
+      between(page, R"(<script type="application/json" id="report-data">)", "</script>", at));
+
+  at = 0;
+  std::size_t tables = 0;
+  std::size_t numbers = 0;
+  for (std::string html; !(html = between(page, "<table data-table=", "</table>", at)).empty();
+       ++tables) {
+    const std::string id = html.substr(1, html.find('"', 1) - 1);
+    const Json& table = json.at("tables").at(id);
+    std::size_t in_html = html.find("<tbody>");
+    for (const Json& row : table.at("rows")) {
+      std::size_t in_row = 0;
+      const std::string row_html = between(html, "<tr", "</tr>", in_html);
+      for (const Json& value : row) {
+        const std::string cell = between(row_html, "<td", "</td>", in_row);
+        if (!value.is_number()) continue;
+        std::size_t in_cell = 0;
+        EXPECT_EQ(files::parse_double(between(cell, "title=\"", "\"", in_cell)),
+                  value.get<double>())
+            << id;
+        const std::string shown = cell.substr(cell.find('>') + 1);
+        EXPECT_EQ(shown, value.is_number_integer() ? count_text(value.get<std::size_t>())
+                                                   : short_number(value.get<double>()))
+            << id;
+        ++numbers;
+      }
+    }
+    EXPECT_EQ(between(html, "<tr", "</tr>", in_html), "") << id << ": more rows than the JSON has";
+  }
+  EXPECT_GT(tables, 10U);
+  EXPECT_GT(numbers, 200U);
+
+  at = 0;
+  std::size_t headlines = 0;
+  for (std::string html; !(html = between(page, "<div data-figure=", "</div>", at)).empty();
+       ++headlines) {
+    const Json& figure = json.at("figures").at(html.substr(1, html.find('"', 1) - 1));
+    const auto value = figure.at("value").get<double>();
+    EXPECT_THAT(html, HasSubstr("title=\"" + full_number(value) + "\">" + short_number(value)));
+    EXPECT_THAT(html, HasSubstr(figure.at("label").get<std::string>()));
+    if (figure.at("interval").is_null()) continue;
+    const Json& interval = figure.at("interval");
+    EXPECT_THAT(html, HasSubstr(full_number(interval.at("low")) + " to " +
+                                full_number(interval.at("high"))));
+  }
+  EXPECT_EQ(headlines, 6U);
+  EXPECT_THAT(page, HasSubstr("<h1>" + json.at("verdict").get<std::string>() + "</h1>"));
+}
+
+TEST(ReportJson, AgreesWithEvaluationAndFrames) {
+  const MadeRun run(0.1);
+  const RunData data = read_run(run.folder.path());
+  const Json json = run.model().model.json;
+  const auto& ape = data.evaluation.comparison->ape.front();
+  EXPECT_EQ(json["figures"]["ape_rmse_m"]["value"], ape.statistics.rmse);
+  EXPECT_EQ(json["figures"]["frame_median_ms"]["value"], data.record["timing_ms"]["frame_median"]);
+  const auto chart = std::find_if(json["charts"].begin(), json["charts"].end(),
+                                  [](const Json& item) { return item["id"] == "ape"; });
+  ASSERT_NE(chart, json["charts"].end());
+  ASSERT_EQ((*chart)["series"][0]["values"].size(), ape.values.size());
+  for (std::size_t i = 0; i < ape.values.size(); ++i) {
+    const double value = (*chart)["series"][0]["values"][i];
+    EXPECT_NEAR(value, ape.values[i], 1e-8 * ape.values[i]);
+  }
+  // The estimate goes wrong around frame 40.
+  const std::size_t first =
+      std::stoul(json["tables"]["worst_segments"]["rows"][0][0].get<std::string>());
+  EXPECT_GT(first, 25U);
+  EXPECT_LT(first, 55U);
 }
 
 TEST(Page, NumbersAreThoseOfTheEvaluation) {
@@ -147,11 +200,16 @@ TEST(Page, WithoutAReferenceThereIsNoErrorSection) {
 
 TEST(RunReport, WritesPicturesAndOnePage) {
   const MadeRun run(0.1);
-  write_run_report(run.folder.path(), MadeRun::kTemplates);
+  write_run_report(run.folder.path(), kTemplates);
   const pipeline::RunFolder files{run.folder.path()};
   EXPECT_TRUE(std::filesystem::exists(files.images() / "trajectory-above.png"));
   EXPECT_TRUE(std::filesystem::exists(files.images() / "error-over-time_dark.png"));
   EXPECT_THAT(files::read_text(files.report()), HasSubstr("data:image/png;base64,iVBOR"));
+  EXPECT_TRUE(std::filesystem::exists(files.images() / "error-over-time.pdf"));
+  EXPECT_THAT(files::read_text(files.images() / "error-over-time.svg"), HasSubstr("<svg"));
+  // The twin that stands in the page is the file.
+  EXPECT_THAT(files::read_text(files.report()),
+              HasSubstr(files::read_text(files.report_json()).substr(0, 5000)));
 }
 
 TEST(RunReport, NamesTheFileThatIsMissingOrDamaged) {
@@ -159,7 +217,7 @@ TEST(RunReport, NamesTheFileThatIsMissingOrDamaged) {
   const pipeline::RunFolder files{run.folder.path()};
   const auto error = [&] {
     try {
-      write_run_report(run.folder.path(), MadeRun::kTemplates);
+      write_run_report(run.folder.path(), kTemplates);
     } catch (const files::InputError& input_error) {
       return input_error.file().filename().string();
     }

@@ -7,6 +7,21 @@
 
 namespace traverse::render {
 
+namespace {
+
+std::string encoded(const Image& image, const char* format, const std::vector<int>& parameters) {
+  // The matrix only looks at the bytes; OpenCV wants it writable and blue first.
+  const cv::Mat view(image.height, image.width, CV_8UC3,
+                     const_cast<std::uint8_t*>(image.rgb.data()));
+  cv::Mat blue_green_red;
+  cv::cvtColor(view, blue_green_red, cv::COLOR_RGB2BGR);
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(format, blue_green_red, bytes, parameters);
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
 Colour Image::at(int x, int y) const {
   const std::size_t first = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                                  static_cast<std::size_t>(x));
@@ -14,15 +29,13 @@ Colour Image::at(int x, int y) const {
 }
 
 std::string Image::encode_png() const {
-  // The matrix only looks at the bytes; OpenCV wants it writable and blue first.
-  const cv::Mat view(height, width, CV_8UC3, const_cast<std::uint8_t*>(rgb.data()));
-  cv::Mat blue_green_red;
-  cv::cvtColor(view, blue_green_red, cv::COLOR_RGB2BGR);
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(
-      ".png", blue_green_red, bytes,
+  return encoded(
+      *this, ".png",
       {cv::IMWRITE_PNG_COMPRESSION, 6, cv::IMWRITE_PNG_STRATEGY, cv::IMWRITE_PNG_STRATEGY_DEFAULT});
-  return {bytes.begin(), bytes.end()};
+}
+
+std::string Image::encode_webp(int quality) const {
+  return encoded(*this, ".webp", {cv::IMWRITE_WEBP_QUALITY, quality});
 }
 
 void Image::write_png(const std::filesystem::path& path) const {

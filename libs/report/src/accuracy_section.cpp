@@ -26,7 +26,8 @@ void add_statistics(std::vector<Cell>& cells, const evaluation::Statistics& s) {
 }
 
 HtmlTable ape_table(const evaluation::Comparison& comparison) {
-  HtmlTable table({"relation", "rmse", "mean", "median", "std", "min", "max", "pairs"});
+  HtmlTable table("ape", "Absolute pose error",
+                  {"relation", "rmse", "mean", "median", "std", "min", "max", "pairs"});
   for (const evaluation::Ape& ape : comparison.ape) {
     std::vector<Cell> cells{relation_text(ape.relation)};
     add_statistics(cells, ape.statistics);
@@ -37,7 +38,9 @@ HtmlTable ape_table(const evaluation::Comparison& comparison) {
 
 /// The two relations that people ask for, or all the others.
 HtmlTable rpe_table(const evaluation::Comparison& comparison, bool main_relations) {
-  HtmlTable table({"stretch", "relation", "rmse", "mean", "median", "std", "min", "max", "pairs"});
+  HtmlTable table(main_relations ? "rpe" : "rpe_more",
+                  main_relations ? "Relative pose error" : "Relative pose error, other relations",
+                  {"stretch", "relation", "rmse", "mean", "median", "std", "min", "max", "pairs"});
   for (const evaluation::Rpe& rpe : comparison.rpe) {
     const bool main = rpe.relation == Relation::kTranslation || rpe.relation == Relation::kAngleDeg;
     if (main != main_relations) continue;
@@ -48,9 +51,11 @@ HtmlTable rpe_table(const evaluation::Comparison& comparison, bool main_relation
   return table;
 }
 
-HtmlTable kitti_table(const evaluation::KittiDrift& kitti) {
-  HtmlTable table({"length [m]", "translation [%]", "rotation [deg/100 m]", "segments"});
-  for (const evaluation::KittiBin& bin : kitti.by_length) {
+HtmlTable kitti_table(const evaluation::KittiDrift& kitti, const std::string& id,
+                      const std::string& by, const std::vector<evaluation::KittiBin>& bins) {
+  HtmlTable table(id, "KITTI drift by " + by,
+                  {by, "translation [%]", "rotation [deg/100 m]", "segments"});
+  for (const evaluation::KittiBin& bin : bins) {
     table.add_row({bin.centre, bin.translation_percent, 100 * bin.rotation_deg_per_m,
                    Cell::count(bin.segments)});
   }
@@ -63,7 +68,7 @@ HtmlTable kitti_table(const evaluation::KittiDrift& kitti) {
 }
 
 HtmlTable path_table(const evaluation::PathFigures& path) {
-  HtmlTable table({"figure", "value", "unit"});
+  HtmlTable table("path", "Path", {"figure", "value", "unit"});
   table.add_row({"path of the estimate", path.estimate_m, "m"});
   table.add_row({"path of the reference", path.reference_m, "m"});
   table.add_row({"end error", path.end_error_m, "m"});
@@ -73,7 +78,7 @@ HtmlTable path_table(const evaluation::PathFigures& path) {
 }
 
 HtmlTable consistency_table(const evaluation::Consistency& score) {
-  HtmlTable table({"figure", "value", "unit", "over"});
+  HtmlTable table("consistency", "Sharpness of the map", {"figure", "value", "unit", "over"});
   const std::string queries = count_text(score.queries) + " queries";
   table.add_row({"mean map entropy (MME)", score.mme, "nats", queries});
   table.add_row({"mean plane deviation (MPV)", 100 * score.mpv_m, "cm", queries});
@@ -86,42 +91,41 @@ HtmlTable consistency_table(const evaluation::Consistency& score) {
   return table;
 }
 
-void add_comparison(const evaluation::Comparison& comparison, TemplateData& page) {
-  page.set("association", evaluation::describe(comparison.association));
-  page.set("alignment", evaluation::describe(comparison.alignment, comparison.stamps.size()));
-  page.set("ape_table", ape_table(comparison).data());
-  page.set("rpe_table", rpe_table(comparison, true).data());
-  page.set("rpe_more_table", rpe_table(comparison, false).data());
-  page.set("path_table", path_table(comparison.path).data());
-  page.set("path_how", evaluation::path_title(comparison));
-  if (comparison.kitti) {
-    page.set("kitti_table", kitti_table(*comparison.kitti).data());
-    page.set("kitti_how", evaluation::title(*comparison.kitti));
-    page.set("kitti_undefined", false);
-  } else {
-    page.set("kitti_table", false);
-    page.set("kitti_undefined",
-             "Not defined: the reference is shorter than the shortest segment, 100 m.");
-  }
-  TemplateData undefined{TemplateData::type::list};
+HtmlTable undefined_table(const evaluation::Comparison& comparison) {
+  HtmlTable table("undefined", "Figures that the trajectories do not define",
+                  {"figure", "because"});
   for (const evaluation::Undefined& item : comparison.undefined) {
-    TemplateData entry;
-    entry.set("metric", item.metric);
-    entry.set("reason", item.reason);
-    undefined.push_back(entry);
+    table.add_row({item.metric, item.reason});
   }
-  page.set("undefined", undefined);
+  return table;
+}
+
+void add_comparison(const evaluation::Comparison& comparison, Model& model) {
+  model.add_text("association", evaluation::describe(comparison.association));
+  model.add_text("alignment", evaluation::describe(comparison.alignment, comparison.stamps.size()));
+  model.add_table(ape_table(comparison));
+  model.add_table(rpe_table(comparison, true));
+  model.add_table(rpe_table(comparison, false));
+  model.add_table(path_table(comparison.path));
+  model.add_text("path_how", evaluation::path_title(comparison));
+  model.page.set("has_kitti", comparison.kitti.has_value());
+  if (const auto& kitti = comparison.kitti) {
+    model.add_table(kitti_table(*kitti, "kitti_by_length", "length [m]", kitti->by_length));
+    model.add_table(kitti_table(*kitti, "kitti_by_speed", "speed [m/s]", kitti->by_speed));
+    model.add_text("kitti_how", evaluation::title(*kitti));
+  }
+  model.add_table(undefined_table(comparison));
 }
 
 }  // namespace
 
-void add_accuracy(const RunData& run, TemplateData& page) {
-  page.set("has_comparison", run.evaluation.comparison.has_value());
-  if (run.evaluation.comparison) add_comparison(*run.evaluation.comparison, page);
-  page.set("consistency_table", false);
+void add_accuracy(const RunData& run, Model& model) {
+  model.page.set("has_comparison", run.evaluation.comparison.has_value());
+  if (run.evaluation.comparison) add_comparison(*run.evaluation.comparison, model);
+  model.page.set("table_consistency", false);
   if (const auto& score = run.evaluation.consistency) {
-    page.set("consistency_table", consistency_table(*score).data());
-    page.set("consistency_how", evaluation::title(*score));
+    model.add_table(consistency_table(*score));
+    model.add_text("consistency_how", evaluation::title(*score));
   }
 }
 

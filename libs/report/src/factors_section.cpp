@@ -20,8 +20,9 @@ using lidar::Spread;
 using optimization::JacobianAudit;
 
 HtmlTable jacobians_table(const JacobianAudit& audit) {
-  HtmlTable table({"factor", "perturbation", "block", "largest entry", "to automatic: absolute",
-                   "relative", "to differences: absolute", "relative", ""});
+  HtmlTable table("jacobians", "Jacobians of the factors of this run",
+                  {"factor", "perturbation", "block", "largest entry", "to automatic: absolute",
+                   "relative", "to differences: absolute", "relative", "verdict"});
   for (const optimization::FactorAudit& factor : audit.factors) {
     for (const optimization::BlockAudit& block : factor.blocks) {
       table.add_row(
@@ -43,32 +44,34 @@ std::string formulas_text(const JacobianAudit& audit) {
   return fmt::format("{}", fmt::join(formulas, "; "));
 }
 
-void add_jacobians(const JacobianAudit& audit, TemplateData& page) {
+void add_jacobians(const JacobianAudit& audit, Model& model) {
   const auto& options = audit.options;
-  page.set("jacobians_table", jacobians_table(audit).data());
-  page.set("jacobians_formulas", formulas_text(audit));
-  page.set("jacobians_kind", audit.passed() ? "good" : "fail");
-  page.set("jacobians_word", audit.passed() ? "Pass:" : "Fail:");
-  page.set("jacobians_text",
-           audit.passed()
-               ? fmt::format(
-                     "every analytic Jacobian is within {:.0e} of automatic derivatives and {:.0e} "
-                     "of differences.",
-                     options.automatic_tolerance, options.numeric_tolerance)
-               : std::string("a Jacobian is wrong (marked): the solver does not find the minimum "
-                             "of what it says it minimises."));
-  page.set("jacobians_how",
-           fmt::format("Analytic Jacobians against dual numbers and against central differences "
-                       "of the factor's own value, computed by the program that made this run: {} "
-                       "random states, at least {} from zero residual (seed {}). The largest "
-                       "differences of all; relative to the largest entry of the block.",
-                       count_text(options.states),
-                       short_number(std::min_element(audit.factors.begin(), audit.factors.end(),
-                                                     [](const auto& a, const auto& b) {
-                                                       return a.least_residual < b.least_residual;
-                                                     })
-                                        ->least_residual),
-                       options.seed));
+  model.add_table(jacobians_table(audit));
+  model.add_text("jacobians_formulas", formulas_text(audit));
+  model.page.set("jacobians_kind", audit.passed() ? "good" : "fail");
+  model.page.set("jacobians_word", audit.passed() ? "Pass:" : "Fail:");
+  model.add_text(
+      "jacobians_text",
+      audit.passed()
+          ? fmt::format(
+                "every analytic Jacobian is within {:.0e} of automatic derivatives and {:.0e} "
+                "of differences.",
+                options.automatic_tolerance, options.numeric_tolerance)
+          : std::string("a Jacobian is wrong (marked): the solver does not find the minimum "
+                        "of what it says it minimises."));
+  model.add_text(
+      "jacobians_how",
+      fmt::format("Analytic Jacobians against dual numbers and against central differences "
+                  "of the factor's own value, computed by the program that made this run: {} "
+                  "random states, at least {} from zero residual (seed {}). The largest "
+                  "differences of all; relative to the largest entry of the block.",
+                  count_text(options.states),
+                  short_number(std::min_element(audit.factors.begin(), audit.factors.end(),
+                                                [](const auto& a, const auto& b) {
+                                                  return a.least_residual < b.least_residual;
+                                                })
+                                   ->least_residual),
+                  options.seed));
 }
 
 /// The costs of one case: analytic, automatic, numeric.
@@ -94,6 +97,7 @@ Cell spread_cell(const Spread& spread) {
 
 HtmlTable evaluations_table(const FactorBench& bench) {
   HtmlTable table(
+      "derivative_evaluations", "A residual with its Jacobians, nanoseconds",
       {"factor", "analytic", "automatic", "numeric", "automatic / analytic", "numeric / analytic"});
   for (const auto& costs : by_case(bench.evaluations)) {
     const double analytic = costs[0].nanoseconds.median;
@@ -105,7 +109,8 @@ HtmlTable evaluations_table(const FactorBench& bench) {
 }
 
 HtmlTable solves_table(const FactorBench& bench) {
-  HtmlTable table({"factors", "analytic", "automatic", "numeric", "automatic / analytic",
+  HtmlTable table("derivative_solves", "A whole solve for the pose, milliseconds",
+                  {"factors", "analytic", "automatic", "numeric", "automatic / analytic",
                    "numeric / analytic", "steps", "poses apart [m]", "[deg]"});
   for (const auto& costs : by_case(bench.solves)) {
     const double analytic = costs[0].milliseconds.median;
@@ -121,15 +126,15 @@ HtmlTable solves_table(const FactorBench& bench) {
   return table;
 }
 
-void add_bench(const FactorBench& bench, TemplateData& page) {
-  page.set("evaluations_table", evaluations_table(bench).data());
-  const HtmlTable solves = solves_table(bench);
-  if (!solves.empty()) page.set("solves_table", solves.data());
-  page.set("bench_text",
-           "Analytic, automatic (dual numbers) and numeric (central differences) derivatives on "
-           "the same correspondences: what each costs, and how far from the pose by analytic ones "
-           "the two others end.");
-  page.set(
+void add_bench(const FactorBench& bench, Model& model) {
+  model.add_table(evaluations_table(bench));
+  model.add_table(solves_table(bench));
+  model.add_text(
+      "bench_text",
+      "Analytic, automatic (dual numbers) and numeric (central differences) derivatives on "
+      "the same correspondences: what each costs, and how far from the pose by analytic ones "
+      "the two others end.");
+  model.add_text(
       "bench_how",
       fmt::format(
           "{}, frame {}: {} line and {} plane matches, {} repeats in turn, CPU time of one thread; "
@@ -142,13 +147,13 @@ void add_bench(const FactorBench& bench, TemplateData& page) {
 
 }  // namespace
 
-void add_factors(const RunData& run, TemplateData& page) {
-  page.set("has_factors", run.jacobians.has_value() || run.factor_bench.has_value());
-  for (const char* table : {"jacobians_table", "evaluations_table", "solves_table"}) {
-    page.set(table, false);
-  }
-  if (run.jacobians && !run.jacobians->factors.empty()) add_jacobians(*run.jacobians, page);
-  if (run.factor_bench) add_bench(*run.factor_bench, page);
+void add_factors(const RunData& run, Model& model) {
+  const bool audited = run.jacobians && !run.jacobians->factors.empty();
+  model.page.set("has_factors", run.jacobians.has_value() || run.factor_bench.has_value());
+  model.page.set("has_jacobians", audited);
+  model.page.set("has_bench", run.factor_bench.has_value());
+  if (audited) add_jacobians(*run.jacobians, model);
+  if (run.factor_bench) add_bench(*run.factor_bench, model);
 }
 
 }  // namespace traverse::report

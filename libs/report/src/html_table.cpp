@@ -1,14 +1,26 @@
 #include "html_table.hpp"
 
+#include <cmath>
+
 #include "number_text.hpp"
 
 namespace traverse::report {
 
-Cell::Cell(double value) : text(short_number(value)), full(full_number(value)), numeric(true) {}
+Cell::Cell(double number) : text(short_number(number)), full(full_number(number)), numeric(true) {
+  if (std::isfinite(number)) value = number;
+}
 
-Cell Cell::count(std::size_t value) {
-  Cell cell(count_text(value));
+Cell Cell::count(std::size_t number) {
+  Cell cell(count_text(number));
+  cell.full = std::to_string(number);
   cell.numeric = true;
+  cell.value = number;
+  return cell;
+}
+
+Cell Cell::moment(std::string words, std::size_t pose) {
+  Cell cell(std::move(words));
+  cell.pose = pose;
   return cell;
 }
 
@@ -32,11 +44,8 @@ kainjow::mustache::data HtmlTable::data() const {
       Data entry;
       entry.set("text", cell.text);
       entry.set("numeric", cell.numeric);
-      if (cell.full.empty()) {
-        entry.set("full", false);
-      } else {
-        entry.set("full", cell.full);
-      }
+      entry.set("full", cell.full.empty() ? Data(false) : Data(cell.full));
+      entry.set("pose", cell.pose ? Data(std::to_string(*cell.pose)) : Data(false));
       cells.push_back(entry);
     }
     Data entry;
@@ -45,9 +54,24 @@ kainjow::mustache::data HtmlTable::data() const {
     rows.push_back(entry);
   }
   Data table;
+  table.set("table_id", id_);
+  table.set("table_title", title_);
   table.set("head", head);
   table.set("rows", rows);
   return table;
+}
+
+nlohmann::ordered_json HtmlTable::json() const {
+  using Json = nlohmann::ordered_json;
+  Json rows = Json::array();
+  Json marked = Json::array();
+  for (const Row& row : rows_) {
+    if (row.marked) marked.push_back(rows.size());
+    Json cells = Json::array();
+    for (const Cell& cell : row.cells) cells.push_back(cell.value);
+    rows.push_back(std::move(cells));
+  }
+  return {{"title", title_}, {"columns", head_}, {"rows", std::move(rows)}, {"marked", marked}};
 }
 
 }  // namespace traverse::report

@@ -1,62 +1,85 @@
 #include "page.hpp"
 
-#include <kainjow/mustache.hpp>
+#include <string_view>
 
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/text_file.hpp"
 
-#include "data_uri.hpp"
-#include "sections.hpp"
+#include "web_libraries.hpp"
 
 namespace traverse::report {
 
 namespace {
 
-void add_figures(const std::vector<Figure>& figures, TemplateData& page) {
-  for (const std::string section : {"trajectory", "error", "map", "health", "timing"}) {
+void add_figures(const std::vector<Figure>& figures, Model& model) {
+  Json json = Json::array();
+  for (const Figure& figure : figures) {
+    json.push_back({{"name", figure.name},
+                    {"section", figure.section},
+                    {"caption", figure.caption},
+                    {"files", {figure.name + ".png", figure.name + "_dark.png"}}});
+  }
+  model.json["pictures"] = std::move(json);
+  for (const std::string section : kFigureSections) {
     TemplateData list{TemplateData::type::list};
     for (const Figure& figure : figures) {
       if (figure.section != section) continue;
       TemplateData entry;
       entry.set("name", figure.name);
       entry.set("caption", figure.caption);
-      entry.set("light", png_data_uri(figure.light_png));
-      entry.set("dark", png_data_uri(figure.dark_png));
+      entry.set("replaced_by", figure.replaced_by);
+      entry.set("light", figure.light);
+      entry.set("dark", figure.dark);
       list.push_back(entry);
     }
-    page.set("figures_" + section, list);
+    model.page.set("figures_" + section, list);
   }
+}
+
+std::string library(const std::string& name) {
+  if (name == "three") return std::string(web::three());
+  if (name == "orbit_controls") return std::string(web::orbit_controls());
+  if (name == "dygraphs") return std::string(web::dygraphs());
+  return {};
 }
 
 }  // namespace
 
-std::string make_page(const RunData& run, const std::vector<Figure>& figures,
-                      const std::filesystem::path& templates) {
-  TemplateData page;
-  page.set("recording", run.recording_name());
-  page.set("pipeline", run.pipeline_name());
-  page.set("date", run.date());
-  page.set("style", files::read_text(templates / "run.css"));
-  page.set("script", files::read_text(templates / "run.js"));
+std::string render_page(TemplateData& page, const std::string& page_name,
+                        const std::vector<std::string>& scripts,
+                        const std::filesystem::path& templates) {
+  page.set("style",
+           std::string(web::dygraphs_style()) + "\n" + files::read_text(templates / "run.css"));
   for (const std::string name : {"figure", "table", "factors"}) {
     const std::string text = files::read_text(templates / (name + ".html"));
     page.set(name, kainjow::mustache::partial([text] { return text; }));
   }
-  add_verdict(run, page);
-  add_accuracy(run, page);
-  add_health(run, page);
-  add_timing(run, page);
-  add_factors(run, page);
-  add_provenance(run, page);
-  add_figures(figures, page);
+  TemplateData list{TemplateData::type::list};
+  for (const std::string& name : scripts) {
+    TemplateData entry;
+    std::string code = library(name);
+    entry.set("code", code.empty() ? files::read_text(templates / (name + ".js")) : code);
+    list.push_back(entry);
+  }
+  page.set("scripts", list);
 
-  const std::filesystem::path file = templates / "run.html";
+  const std::filesystem::path file = templates / (page_name + ".html");
   kainjow::mustache::mustache page_template(files::read_text(file));
   if (!page_template.is_valid()) {
     throw files::InputError(file, files::Place::whole_file(), "a valid template",
                             page_template.error_message());
   }
   return page_template.render(page);
+}
+
+std::string make_page(Model& model, const std::string& packed_points,
+                      const std::vector<Figure>& figures, const std::filesystem::path& templates) {
+  add_figures(figures, model);
+  model.page.set("report_json", text_for_script(model.json));
+  model.page.set("points", packed_points);
+  return render_page(model.page, "run",
+                     {"three", "orbit_controls", "dygraphs", "moment", "charts", "scene", "tables"},
+                     templates);
 }
 
 }  // namespace traverse::report

@@ -19,7 +19,8 @@ std::string value_text(const json& value) {
 }
 
 HtmlTable configuration_table(const json& settings) {
-  HtmlTable table({"setting", "value", "preset", "meaning", "allowed"});
+  HtmlTable table("configuration", "Configuration",
+                  {"setting", "value", "preset", "meaning", "allowed"});
   for (const bool changed : {true, false}) {
     for (const json& setting : settings) {
       if (setting.at("changed").get<bool>() != changed) continue;
@@ -45,7 +46,7 @@ std::string configuration_summary(const json& record) {
 }
 
 HtmlTable facts_table(const json& record) {
-  HtmlTable table({"fact", "value", "because"});
+  HtmlTable table("facts", "What was taken for true", {"fact", "value", "because"});
   for (const json& fact : record.at("recording").at("facts")) {
     table.add_row({fact.at("name").get<std::string>(), fact.at("value").get<std::string>(),
                    fact.at("reason").get<std::string>()});
@@ -58,7 +59,7 @@ HtmlTable facts_table(const json& record) {
 }
 
 HtmlTable skipped_table(const json& record) {
-  HtmlTable table({"reason", "records", "first places"});
+  HtmlTable table("skipped", "Skipped records", {"reason", "records", "first places"});
   for (const auto& [reason, skipped] : record.at("skipped_records").items()) {
     table.add_row(
         {reason, Cell::count(skipped.at("count").get<std::size_t>()),
@@ -75,7 +76,7 @@ HtmlTable made_table(const json& record) {
   for (const auto& [name, version] : program.at("libraries").items()) {
     libraries.push_back(fmt::format("{} {}", name, version.get<std::string>()));
   }
-  HtmlTable table({"what", "value"});
+  HtmlTable table("made", "How this was made", {"what", "value"});
   table.add_row({"recording", fmt::format("{} ({})", recording.at("path").get<std::string>(),
                                           recording.at("format").get<std::string>())});
   if (!recording.at("sha256").is_null()) {
@@ -135,16 +136,14 @@ std::string command_text(const json& command) {
 
 }  // namespace
 
-void add_provenance(const RunData& run, TemplateData& page) {
-  page.set("configuration_summary", configuration_summary(run.record));
-  page.set("configuration_table",
-           configuration_table(run.record.at("configuration").at("settings")).data());
-  page.set("facts_table", facts_table(run.record).data());
-  const HtmlTable skipped = skipped_table(run.record);
-  page.set("skipped_table", skipped.empty() ? TemplateData(false) : skipped.data());
-  page.set("made_table", made_table(run.record).data());
-  page.set("command", command_text(run.record.at("command")));
-  page.set("program_version", run.record.at("program").at("version").get<std::string>());
+void add_provenance(const RunData& run, Model& model) {
+  model.add_text("configuration_summary", configuration_summary(run.record));
+  model.add_table(configuration_table(run.record.at("configuration").at("settings")));
+  model.add_table(facts_table(run.record));
+  model.add_table(skipped_table(run.record));
+  model.add_table(made_table(run.record));
+  model.add_text("command", command_text(run.record.at("command")));
+  model.add_text("program_version", run.record.at("program").at("version").get<std::string>());
 }
 
 }  // namespace traverse::report

@@ -5,17 +5,34 @@
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/pipeline/run_folder.hpp"
 
+#include "budget_check.hpp"
+#include "exports.hpp"
 #include "figures.hpp"
 #include "page.hpp"
-#include "run_data.hpp"
+#include "report_model.hpp"
 
 namespace traverse::report {
 
-void write_run_report(const std::filesystem::path& run_folder,
-                      const std::filesystem::path& templates, const RunReportOptions& options) {
+std::optional<BudgetResult> write_run_report(const std::filesystem::path& run_folder,
+                                             const std::filesystem::path& templates,
+                                             const RunReportOptions& options) {
   const RunData run = read_run(run_folder);
-  const std::vector<Figure> figures = draw_figures(run, options.picture_drawn);
-  files::write_text(pipeline::RunFolder{run_folder}.report(), make_page(run, figures, templates));
+  const std::vector<RunFigure> figures = run_figures(run);
+  std::optional<BudgetResult> budget;
+  if (options.budget) budget = check_figures(*options.budget, figures);
+
+  const WorstSegments worst = worst_segments(run);
+  std::vector<Figure> pictures;
+  if (options.pictures)
+    pictures = draw_figures(run, worst, options.picture_width, options.picture_drawn);
+
+  ReportModel report = make_model(run, figures, worst, budget ? &*budget : nullptr);
+  const std::string page = make_page(report.model, report.packed_points, pictures, templates);
+  const pipeline::RunFolder files{run_folder};
+  files::write_text(files.report_json(), text_for_script(report.model.json) + "\n");
+  files::write_text(files.report(), page);
+  if (options.exports) export_tables(report.model.json.at("tables"), *options.exports);
+  return budget;
 }
 
 }  // namespace traverse::report

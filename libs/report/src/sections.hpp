@@ -1,20 +1,24 @@
 #pragma once
 
-#include <kainjow/mustache.hpp>
+#include <vector>
 
+#include "model.hpp"
 #include "run_data.hpp"
+#include "run_figures.hpp"
 
-/// The report's sections as data for the templates: each function fills the keys that its part of
-/// run.html reads. Texts are plain; the template engine escapes them.
+/// Each fills its part of the report.
 namespace traverse::report {
 
-using TemplateData = kainjow::mustache::data;
+struct BudgetResult;
 
-void add_verdict(const RunData& run, TemplateData& page);
-void add_accuracy(const RunData& run, TemplateData& page);
-void add_health(const RunData& run, TemplateData& page);
-void add_timing(const RunData& run, TemplateData& page);
-void add_factors(const RunData& run, TemplateData& page);
-void add_provenance(const RunData& run, TemplateData& page);
+void add_verdict(const RunData& run, const std::vector<RunFigure>& figures, Model& model);
+/// \param budget null if none was given
+void add_headlines(const std::vector<RunFigure>& figures, const BudgetResult* budget, Model& model);
+void add_accuracy(const RunData& run, Model& model);
+void add_health(const RunData& run, Model& model);
+void add_timing(const RunData& run, Model& model);
+/// Nothing where the run folder has no factors.
+void add_factors(const RunData& run, Model& model);
+void add_provenance(const RunData& run, Model& model);
 
 }  // namespace traverse::report

@@ -7,6 +7,7 @@
 #include "html_table.hpp"
 #include "number_text.hpp"
 #include "sections.hpp"
+#include "series.hpp"
 
 namespace traverse::report {
 
@@ -34,9 +35,10 @@ std::vector<std::size_t> frames_by_concern(const pipeline::FrameTable& frames) {
 }
 
 HtmlTable worst_table(const pipeline::FrameTable& frames) {
-  HtmlTable table({"frame", "time [s]", "registered", "degenerate", "residual rms [m]",
-                   "inliers [%]", "line matches", "plane matches", "least eigenvalue",
-                   "time taken [ms]"});
+  HtmlTable table(
+      "worst_frames", "Frames to look at first",
+      {"frame", "time [s]", "registered", "degenerate", "residual rms [m]", "inliers [%]",
+       "line matches", "plane matches", "least eigenvalue", "time taken [ms]"});
   const auto number = frames.column("frame");
   const auto stamp = frames.column("stamp_s");
   const auto registered = frames.column("registered");
@@ -48,8 +50,8 @@ HtmlTable worst_table(const pipeline::FrameTable& frames) {
   const auto eigenvalue = frames.column("eigenvalue_1");
   const auto total = frames.column("total_ms");
   for (const std::size_t i : frames_by_concern(frames)) {
-    table.add_row({Cell::count(static_cast<std::size_t>(number[i])), stamp[i] - stamp.front(),
-                   registered[i] != 0 ? "yes" : "no",
+    table.add_row({Cell::moment(std::to_string(static_cast<std::size_t>(number[i])), i),
+                   stamp[i] - stamp.front(), registered[i] != 0 ? "yes" : "no",
                    Cell::count(static_cast<std::size_t>(degenerate[i])), residual[i],
                    100 * inliers[i], Cell::count(static_cast<std::size_t>(lines[i])),
                    Cell::count(static_cast<std::size_t>(planes[i])), eigenvalue[i], total[i]});
@@ -57,37 +59,51 @@ HtmlTable worst_table(const pipeline::FrameTable& frames) {
   return table;
 }
 
-}  // namespace
-
-void add_health(const RunData& run, TemplateData& page) {
-  const HtmlTable table = worst_table(run.frames);
-  page.set("worst_how",
-           "Those that could not be registered, then those with degenerate directions, then those "
-           "with the largest residuals.");
-  page.set("worst_table", table.empty() ? TemplateData(false) : table.data());
-  page.set("frame_columns", std::to_string(run.frames.columns().size()));
+/// A row of the timing table; the mean and the percentiles are those of run.json.
+std::vector<Cell> timing_row(const std::string& name, const nlohmann::json& timing,
+                             const char* prefix, double mean, const pipeline::FrameTable& frames,
+                             const std::string& column) {
+  const auto of = [&](const char* key) {
+    return timing.at(std::string(prefix) + key).get<double>();
+  };
+  return {name,     of("median"), mean, of("p95"), percentile_of(frames.column(column), 0.99),
+          of("max")};
 }
 
-void add_timing(const RunData& run, TemplateData& page) {
+HtmlTable timing_table(const RunData& run) {
   const auto& timing = run.record.at("timing_ms");
-  HtmlTable table({"stage", "median [ms]", "mean [ms]", "95 % [ms]", "max [ms]"});
+  HtmlTable table("timing", "Time of the stages",
+                  {"stage", "median [ms]", "mean [ms]", "95 % [ms]", "99 % [ms]", "max [ms]"});
   for (const auto& stage : timing.at("stages")) {
-    table.add_row({stage.at("name").get<std::string>(), stage.at("median").get<double>(),
-                   stage.at("mean").get<double>(), stage.at("p95").get<double>(),
-                   stage.at("max").get<double>()});
+    const std::string name = stage.at("name");
+    table.add_row(timing_row(name, stage, "", stage.at("mean"), run.frames, name + "_ms"));
   }
   const auto frames = static_cast<double>(std::max<std::size_t>(1, run.frames.rows().size()));
-  table.add_row(
-      {"frame", timing.at("frame_median").get<double>(), timing.at("total").get<double>() / frames,
-       timing.at("frame_p95").get<double>(), timing.at("frame_max").get<double>()},
-      true);
-  page.set("timing_table", table.data());
-  page.set("timing_how",
-           fmt::format("Wall time of the estimator on {}; reading the recording, maps and "
-                       "evaluation are not in it. The whole run took {}, {} MB of memory at most.",
-                       plural(run.record.at("threads"), "thread"),
-                       duration_text(run.record.at("wall_seconds")),
-                       short_number(run.record.at("peak_memory_mb").get<double>())));
+  table.add_row(timing_row("frame", timing, "frame_", timing.at("total").get<double>() / frames,
+                           run.frames, "total_ms"),
+                true);
+  return table;
+}
+
+}  // namespace
+
+void add_health(const RunData& run, Model& model) {
+  model.add_text("worst_how",
+                 "Those that could not be registered, then those with degenerate directions, then "
+                 "those with the largest residuals.");
+  model.add_table(worst_table(run.frames));
+  model.page.set("frame_columns", std::to_string(run.frames.columns().size()));
+}
+
+void add_timing(const RunData& run, Model& model) {
+  model.add_table(timing_table(run));
+  model.add_text(
+      "timing_how",
+      fmt::format("Wall time of the estimator on {}; reading the recording, maps and "
+                  "evaluation are not in it. The whole run took {}, {} MB of memory at most.",
+                  plural(run.record.at("threads"), "thread"),
+                  duration_text(run.record.at("wall_seconds")),
+                  short_number(run.record.at("peak_memory_mb").get<double>())));
 }
 
 }  // namespace traverse::report

@@ -1,134 +1,44 @@
 #include <algorithm>
-#include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "traverse/evaluation/titles.hpp"
-
 #include "number_text.hpp"
 #include "sections.hpp"
+#include "series.hpp"
 
 namespace traverse::report {
 
 namespace {
 
-using evaluation::Relation;
-
 /// A stretch without a frame longer than this many median intervals is told.
 constexpr double kGap = 1.5;
-
-const evaluation::Ape* find_ape(const evaluation::Comparison& comparison, Relation relation) {
-  for (const auto& ape : comparison.ape) {
-    if (ape.relation == relation) return &ape;
-  }
-  return nullptr;
-}
-
-const evaluation::Rpe* find_rpe(const evaluation::Comparison& comparison, Relation relation,
-                                double frames) {
-  for (const auto& rpe : comparison.rpe) {
-    if (rpe.relation == relation && rpe.options.delta.unit == evaluation::DeltaUnit::kFrames &&
-        rpe.options.delta.value == frames) {
-      return &rpe;
-    }
-  }
-  return nullptr;
-}
-
-double end_error_percent(const evaluation::Comparison& comparison) {
-  return comparison.path.end_error_percent.value_or(std::numeric_limits<double>::quiet_NaN());
-}
-
-std::size_t skipped_records(const RunData& run) {
-  std::size_t total = 0;
-  for (const auto& [reason, count] : run.record.at("frames").at("skipped").items()) {
-    total += count.get<std::size_t>();
-  }
-  return total;
-}
 
 std::string skipped_words(std::size_t skipped) {
   return skipped == 0 ? "nothing skipped" : plural(skipped, "record") + " skipped";
 }
 
-std::string sentence(const RunData& run) {
-  const double ms = run.record.at("timing_ms").at("frame_median");
+std::string sentence(const RunData& run, const std::vector<RunFigure>& figures) {
   std::vector<std::string> parts;
-  if (const auto& comparison = run.evaluation.comparison) {
-    parts.push_back(fmt::format("Drifts {} % over {} m",
-                                short_number(end_error_percent(*comparison)),
-                                short_number(comparison->path.reference_m)));
-    if (const auto* ape = find_ape(*comparison, Relation::kTranslation)) {
-      parts.push_back(fmt::format("{} m APE", short_number(ape->statistics.rmse)));
+  if (run.evaluation.comparison) {
+    const double reference_m = run.evaluation.comparison->path.reference_m;
+    if (const auto* drift = find_figure(figures, "end_drift_percent")) {
+      parts.push_back(fmt::format("Drifts {} % over {} m", short_number(drift->value),
+                                  short_number(reference_m)));
+    }
+    if (const auto* ape = find_figure(figures, "ape_rmse_m")) {
+      parts.push_back(fmt::format("{} m APE", short_number(ape->value)));
     }
   } else {
     parts.push_back(fmt::format("Drove {} m, no reference to compare with",
                                 short_number(run.estimate.path_length())));
   }
-  parts.push_back(fmt::format("{} ms a frame", short_number(ms)));
-  parts.push_back(skipped_words(skipped_records(run)));
+  parts.push_back(
+      fmt::format("{} ms a frame", short_number(find_figure(figures, "frame_median_ms")->value)));
+  parts.push_back(skipped_words(skipped_records(run.record)));
   return fmt::format("{}.", fmt::join(parts, "; "));
-}
-
-struct Headline {
-  std::string label;
-  std::string value;
-  std::string full;
-  std::string unit;
-  std::string how;
-};
-
-Headline headline(const std::string& label, double value, const std::string& unit,
-                  const std::string& how) {
-  return {label, short_number(value), full_number(value), unit, how};
-}
-
-void add_comparison_headlines(const evaluation::Comparison& comparison,
-                              std::vector<Headline>& headlines) {
-  headlines.push_back(headline("Drift", end_error_percent(comparison), "%",
-                               fmt::format("end point {} m off after {} m, from the first pose on",
-                                           short_number(comparison.path.end_error_m),
-                                           short_number(comparison.path.reference_m))));
-  if (const auto* ape = find_ape(comparison, Relation::kTranslation)) {
-    headlines.push_back(
-        headline("APE", ape->statistics.rmse, "m",
-                 fmt::format("rmse, {}, {} pairs",
-                             evaluation::describe(comparison.alignment, ape->statistics.count),
-                             ape->statistics.count)));
-  }
-  if (comparison.kitti) {
-    headlines.push_back(
-        headline("KITTI drift", comparison.kitti->translation_percent, "%",
-                 fmt::format("mean of {} segments of 100 to 800 m, {} frame",
-                             comparison.kitti->segments.size(), comparison.kitti->frame)));
-  } else if (const auto* rpe = find_rpe(comparison, Relation::kTranslation, 10)) {
-    headlines.push_back(headline("RPE over 10 frames", rpe->statistics.rmse, "m",
-                                 fmt::format("rmse, {} pairs", rpe->statistics.count)));
-  }
-}
-
-std::vector<Headline> headlines(const RunData& run) {
-  std::vector<Headline> list;
-  if (run.evaluation.comparison) add_comparison_headlines(*run.evaluation.comparison, list);
-  if (const auto& score = run.evaluation.consistency) {
-    list.push_back(headline("Map entropy", score->mme, "nats",
-                            fmt::format("mean of {} queries, lower is sharper; points {}",
-                                        count_text(score->queries), score->points_are)));
-  }
-  const auto& timing = run.record.at("timing_ms");
-  list.push_back(headline("Time a frame", timing.at("frame_median"), "ms",
-                          fmt::format("median, {} at 95 %, {} thread{}",
-                                      short_number(timing.at("frame_p95").get<double>()),
-                                      run.record.at("threads").get<int>(),
-                                      run.record.at("threads").get<int>() == 1 ? "" : "s")));
-  const std::size_t used = run.record.at("frames").at("used");
-  list.push_back(
-      {"Frames", count_text(used), std::to_string(used), "", skipped_words(skipped_records(run))});
-  return list;
 }
 
 struct Notice {
@@ -137,22 +47,12 @@ struct Notice {
   std::string text;
 };
 
-std::size_t count_where(const std::vector<double>& values, bool (*test)(double)) {
-  return static_cast<std::size_t>(std::count_if(values.begin(), values.end(), test));
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 void add_gap_notice(const RunData& run, std::vector<Notice>& list) {
   const std::vector<double> stamps = run.frames.column("stamp_s");
   std::vector<double> intervals;
   for (std::size_t i = 1; i < stamps.size(); ++i) intervals.push_back(stamps[i] - stamps[i - 1]);
   if (intervals.empty()) return;
-  const double usual = median(intervals);
+  const double usual = percentile_of(intervals, 0.5);
   const auto longest = std::max_element(intervals.begin(), intervals.end());
   const auto gaps = std::count_if(intervals.begin(), intervals.end(),
                                   [&](double interval) { return interval > kGap * usual; });
@@ -178,21 +78,18 @@ std::vector<Notice> notices(const RunData& run) {
          fmt::format("{} × {} (first: {})", skipped.at("count").get<std::size_t>(), reason,
                      fmt::join(skipped.at("first").get<std::vector<std::string>>(), ", "))});
   }
-  const std::vector<double> registered = run.frames.column("registered");
-  // The first frame defines the map: it has nothing to be registered in.
-  const std::size_t lost = count_where(registered, [](double v) { return v == 0; });
-  if (lost > 1) {
+  const Registration state = registration_of(run.frames);
+  if (state.lost > 0) {
     list.push_back(
         {"fail", "Lost",
-         fmt::format("{} frames could not be registered; their poses are predictions.", lost - 1)});
+         fmt::format("{} could not be registered; {} predicted.", plural(state.lost, "frame"),
+                     state.lost == 1 ? "its pose is" : "their poses are")});
   }
-  const std::size_t degenerate =
-      count_where(run.frames.column("degenerate_directions"), [](double v) { return v > 0; });
-  if (degenerate > 0) {
+  if (state.degenerate > 0) {
     list.push_back({"warn", "Degenerate",
                     fmt::format("{} of {} frames do not determine every direction of motion; along "
                                 "those the prediction was kept.",
-                                degenerate, run.frames.rows().size())});
+                                state.degenerate, run.frames.rows().size())});
   }
   add_gap_notice(run, list);
   if (run.jacobians && !run.jacobians->passed()) {
@@ -209,28 +106,20 @@ std::vector<Notice> notices(const RunData& run) {
 
 }  // namespace
 
-void add_verdict(const RunData& run, TemplateData& page) {
-  page.set("verdict", sentence(run));
-  TemplateData headline_list{TemplateData::type::list};
-  for (const Headline& item : headlines(run)) {
-    TemplateData entry;
-    entry.set("label", item.label);
-    entry.set("value", item.value);
-    entry.set("full", item.full);
-    entry.set("unit", item.unit);
-    entry.set("how", item.how);
-    headline_list.push_back(entry);
-  }
-  page.set("headlines", headline_list);
-  TemplateData notice_list{TemplateData::type::list};
+void add_verdict(const RunData& run, const std::vector<RunFigure>& figures, Model& model) {
+  model.add_text("verdict", sentence(run, figures));
+  TemplateData list{TemplateData::type::list};
+  Json json = Json::array();
   for (const Notice& notice : notices(run)) {
     TemplateData entry;
     entry.set("kind", notice.kind);
     entry.set("word", notice.word + ":");
     entry.set("text", notice.text);
-    notice_list.push_back(entry);
+    list.push_back(entry);
+    json.push_back({{"kind", notice.kind}, {"word", notice.word}, {"text", notice.text}});
   }
-  page.set("notices", notice_list);
+  model.page.set("notices", list);
+  model.json["notices"] = std::move(json);
 }
 
 }  // namespace traverse::report

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "traverse/render/plot/scale_bar.hpp"
 #include "traverse/render/plot/title_block.hpp"
 
+#include "pictures/map_points.hpp"
 #include "pictures/note.hpp"
 
 namespace traverse::render {
@@ -46,36 +46,6 @@ Bounds shown_bounds(const MapPoints& points, const Path& path) {
   shown.x = shown.x.at_least(1).padded(0.02);
   shown.y = shown.y.at_least(1).padded(0.02);
   return shown;
-}
-
-/// The colour scale in the map frame's terms: heights are given from the origin.
-ColourScale scale_of(const MapPoints& points, const PointValues& values) {
-  if (!values.values.empty()) return colour_scale(values.values, values.map);
-  ColourScale scale = colour_scale(points.z, values.map);
-  for (Range* range : {&scale.shown, &scale.data}) {
-    range->low += points.origin.z();
-    range->high += points.origin.z();
-  }
-  return scale;
-}
-
-/// The finite points in a frame with its origin at `centre` (map frame), coloured.
-std::vector<ScenePoint> coloured_points(const MapPoints& points, const PointValues& values,
-                                        const ColourScale& scale, const Eigen::Vector3d& centre) {
-  const Eigen::Vector3d shift = points.origin - centre;
-  std::vector<ScenePoint> scene;
-  scene.reserve(points.x.size());
-  for (std::size_t i = 0; i < points.x.size(); ++i) {
-    if (!std::isfinite(points.x[i]) || !std::isfinite(points.y[i]) || !std::isfinite(points.z[i])) {
-      continue;
-    }
-    const double value = values.values.empty() ? points.z[i] + points.origin.z()
-                                               : static_cast<double>(values.values[i]);
-    scene.push_back({static_cast<float>(points.x[i] + shift.x()),
-                     static_cast<float>(points.y[i] + shift.y()),
-                     static_cast<float>(points.z[i] + shift.z()), scale(value)});
-  }
-  return scene;
 }
 
 /// Points as large as leaves no holes between them where they are dense, within limits.
@@ -129,15 +99,6 @@ Occupancy occupancy_of(const PointCloud& cloud, const Style& style) {
   }
   return occupancy;
 }
-
-void check_sizes(const MapPoints& points, const PointValues& values) {
-  const std::size_t count = points.x.size();
-  if (points.y.size() != count || points.z.size() != count ||
-      (!values.values.empty() && values.values.size() != count)) {
-    throw std::invalid_argument("the arrays of a map's points must agree in size");
-  }
-}
-
 }  // namespace
 
 Drawing map_from_above(const MapPoints& points, const PointValues& values,

@@ -24,6 +24,7 @@ struct RunFolder {
   std::filesystem::path factor_bench() const { return path / "factor_bench.json"; }
   std::filesystem::path images() const { return path / "images"; }
   std::filesystem::path report() const { return path / "report.html"; }
+  std::filesystem::path report_json() const { return path / "report.json"; }
 
   /// Makes the folder and removes what an earlier run left in these places, so that results never
   /// mix; files of other names stay. \throws files::OutputError if it cannot be written.

@@ -2,20 +2,30 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
+
+#include "traverse/report/budget.hpp"
 
 namespace traverse::report {
 
 struct RunReportOptions {
-  /// Called with the name of each picture that is finished.
+  bool pictures = true;                          ///< draw images/*.png and put them into the page
+  int picture_width = 1600;                      ///< pixels; up to 8192 for print
+  std::optional<std::filesystem::path> budget;   ///< limits to check; shown on the page
+  std::optional<std::filesystem::path> exports;  ///< folder for every table as CSV and LaTeX
+  /// Called with the name of each picture that is finished, from one thread at a time.
   std::function<void(const std::string&)> picture_drawn = [](const std::string&) {};
 };
 
-/// Draws the pictures of a finished run (images/*.png, for light and for dark pages) and writes
-/// report.html: one self-contained file, made from the run folder alone.
-/// \param templates folder with run.html, run.css
+/// Draws the pictures of a finished run (images/*.png, for light and for dark pages; line plots
+/// also as SVG and PDF) and writes report.html, one self-contained file, and report.json, its
+/// numbers (docs/report-json.md): all made from the run folder alone.
+/// \param templates folder with run.html, run.css, ...
+/// \return what the budget said, if there was one
 /// \throws files::InputError if a file of the run is missing or damaged; files::OutputError
-void write_run_report(const std::filesystem::path& run_folder,
-                      const std::filesystem::path& templates, const RunReportOptions& options = {});
+std::optional<BudgetResult> write_run_report(const std::filesystem::path& run_folder,
+                                             const std::filesystem::path& templates,
+                                             const RunReportOptions& options = {});
 
 }  // namespace traverse::report

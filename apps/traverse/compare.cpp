@@ -1,0 +1,60 @@
+#include "traverse/report/compare.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "installed_files.hpp"
+
+namespace traverse::app {
+
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  traverse compare runs/before runs/after
+  traverse compare runs/floam runs/other runs/third -o floam-and-others.html --threshold 5
+
+The first run is the baseline. A figure has improved or regressed when the 95 % interval of its
+difference, from the paired moving-block bootstrap, lies beyond the threshold as a whole.)";
+
+struct CompareArguments {
+  std::vector<std::filesystem::path> runs;
+  std::filesystem::path page = "compare.html";
+  report::CompareOptions options;
+};
+
+}  // namespace
+
+void add_compare(CLI::App& app) {
+  auto arguments = std::make_shared<CompareArguments>();
+  CLI::App* compare =
+      app.add_subcommand("compare", "put runs of one recording side by side: HTML, JSON, table");
+  compare->add_option("RUN", arguments->runs, "run folders, the baseline first")
+      ->required()
+      ->expected(2, 64)
+      ->check(CLI::ExistingDirectory);
+  compare->add_option("-o,--output", arguments->page, "page to write; its JSON stands beside it")
+      ->type_name("FILE.html")
+      ->capture_default_str();
+  compare
+      ->add_option("--threshold", arguments->options.threshold_percent,
+                   "percent of the baseline below which a difference does not count")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
+  compare->footer(kExamples);
+  compare->callback([arguments] {
+    if (arguments->page.extension() != ".html") {
+      throw CLI::ValidationError("--output", "must end in .html");
+    }
+    fmt::print("{}{}\n",
+               report::write_comparison(arguments->runs, arguments->page,
+                                        find_installed_files().templates, arguments->options),
+               arguments->page.string());
+  });
+}
+
+}  // namespace traverse::app

@@ -1,0 +1,76 @@
+#include "figure_maker.hpp"
+
+#include <memory>
+#include <variant>
+
+#include "traverse/files/atomic_file.hpp"
+#include "traverse/pipeline/run_folder.hpp"
+#include "traverse/render/vector_file.hpp"
+
+#include "data_uri.hpp"
+
+namespace traverse::report {
+
+FigureMaker::FigureMaker(const RunData& run, int width,
+                         const std::function<void(const std::string&)>& picture_drawn)
+    : run_(run), picture_drawn_(picture_drawn), images_(pipeline::RunFolder{run.folder}.images()) {
+  files::make_writable_folder(images_);
+  light_.height = light_.height * width / light_.width;
+  light_.width = width;
+  dark_ = light_;
+  dark_.theme = render::dark_theme();
+}
+
+FigureMaker::~FigureMaker() {
+  writers_.cancel();
+  try {
+    writers_.wait();
+  } catch (...) {  // NOLINT(bugprone-empty-catch): another error is already on its way
+  }
+}
+
+render::Caption FigureMaker::caption(std::string title, std::string statistic) const {
+  return {std::move(title), std::move(statistic), run_.recording_name(), run_.pipeline_name(),
+          run_.date()};
+}
+
+render::Style FigureMaker::sized(render::Style style, double share) {
+  style.width = static_cast<int>(share * style.width);
+  style.height = static_cast<int>(share * style.height);
+  return style;
+}
+
+std::size_t FigureMaker::begin(Figure figure) {
+  const std::lock_guard lock(figures_mutex_);
+  figures_.push_back(std::move(figure));
+  return figures_.size() - 1;
+}
+
+void FigureMaker::finish(const render::Drawing& drawing, const std::string& file, std::size_t index,
+                         bool dark) {
+  // For paper: light, and only what is lines, for a million points are no drawing.
+  const bool lines = render::is_vector(drawing);
+  if (lines && !dark) {
+    writers_.run([this, file, drawing] {
+      files::write_text(images_ / (file + ".svg"), render::encode_svg(drawing));
+      files::write_text(images_ / (file + ".pdf"), render::encode_pdf(drawing));
+    });
+  }
+  const auto image = std::make_shared<const render::Image>(renderer_.render(drawing));
+  writers_.run([this, file, index, dark, lines, image] {
+    const std::string png = image->encode_png();
+    files::write_text(images_ / (file + ".png"), png);
+    // A page of many maps would be several times as large with them as PNG.
+    std::string uri =
+        lines ? data_uri("image/png", png) : data_uri("image/webp", image->encode_webp());
+    const std::lock_guard lock(figures_mutex_);
+    (dark ? figures_[index].dark : figures_[index].light) = std::move(uri);
+  });
+}
+
+std::vector<Figure> FigureMaker::take() {
+  writers_.wait();
+  return std::move(figures_);
+}
+
+}  // namespace traverse::report

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <tbb/task_group.h>
+
+#include "traverse/render/caption.hpp"
+#include "traverse/render/drawing.hpp"
+#include "traverse/render/renderer.hpp"
+#include "traverse/render/style.hpp"
+
+#include "figures.hpp"
+
+namespace traverse::report {
+
+/// Draws one picture after another with one renderer; while the next is drawn, the ones before are
+/// compressed and written by other threads.
+class FigureMaker {
+ public:
+  FigureMaker(const RunData& run, int width,
+              const std::function<void(const std::string&)>& picture_drawn);
+  ~FigureMaker();
+  FigureMaker(const FigureMaker&) = delete;
+  FigureMaker& operator=(const FigureMaker&) = delete;
+
+  render::Caption caption(std::string title, std::string statistic) const;
+
+  /// `draw` makes the drawing for a style; `text` stands below the picture on the page; see
+  /// Figure::replaced_by.
+  template <typename Draw>
+  void add(const std::string& section, const std::string& name, const std::string& text,
+           const Draw& draw, const std::string& replaced_by = {}) {
+    add_sized(section, name, text, draw, replaced_by, 1);
+  }
+
+  /// The same in a part of the usual size.
+  template <typename Draw>
+  void add_sized(const std::string& section, const std::string& name, const std::string& text,
+                 const Draw& draw, const std::string& replaced_by, double share) {
+    const std::size_t index = begin({name, section, text, replaced_by, {}, {}});
+    finish(draw(sized(light_, share)), name, index, false);
+    finish(draw(sized(dark_, share)), name + "_dark", index, true);
+    picture_drawn_(name);
+  }
+
+  /// Waits for all of them. \throws files::OutputError if one could not be written.
+  std::vector<Figure> take();
+
+ private:
+  static render::Style sized(render::Style style, double share);
+  std::size_t begin(Figure figure);
+  void finish(const render::Drawing& drawing, const std::string& file, std::size_t index,
+              bool dark);
+
+  const RunData& run_;
+  const std::function<void(const std::string&)>& picture_drawn_;
+  std::filesystem::path images_;
+  render::Renderer renderer_;
+  render::Style light_;
+  render::Style dark_;
+  std::vector<Figure> figures_;
+  std::mutex figures_mutex_;  ///< of figures_, which grows while others are filled
+  tbb::task_group writers_;
+};
+
+}  // namespace traverse::report

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model.hpp"
+#include "run_data.hpp"
+#include "run_figures.hpp"
+#include "worst_segments.hpp"
+
+namespace traverse::report {
+
+struct BudgetResult;
+
+/// Everything of a report but its pictures.
+struct ReportModel {
+  Model model;
+  std::string packed_points;  ///< of the 3-D view
+};
+
+/// \param budget null if none was given
+ReportModel make_model(const RunData& run, const std::vector<RunFigure>& figures,
+                       const WorstSegments& worst, const BudgetResult* budget);
+
+}  // namespace traverse::report

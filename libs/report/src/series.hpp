@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "traverse/evaluation/evaluate.hpp"
+
+#include "run_data.hpp"
+
+/// Series of a run that several parts of its report need.
+namespace traverse::report {
+
+/// The errors of that relation, or null if they were not computed.
+const evaluation::Ape* find_ape(const evaluation::Comparison& comparison,
+                                evaluation::Relation relation);
+/// Those over so many frames, or null.
+const evaluation::Rpe* find_rpe(const evaluation::Comparison& comparison,
+                                evaluation::Relation relation, double frames);
+
+/// Seconds from the first pose of the estimate to each.
+std::vector<double> seconds_from_start(const RunData& run);
+/// The same of the poses that have a partner on the reference.
+std::vector<double> match_times(const RunData& run);
+/// One value a pose of the estimate, of one a match; NaN where a pose found no partner.
+std::vector<double> for_each_pose(const RunData& run, const std::vector<double>& for_each_match);
+
+/// The estimate brought onto the reference as the evaluation did, to be drawn over it.
+geometry::Trajectory aligned_estimate(const RunData& run);
+
+/// How the registration of the frames went.
+struct Registration {
+  std::size_t lost = 0;  ///< not registered, but for the first frame, which defines the map
+  std::size_t degenerate = 0;
+};
+Registration registration_of(const pipeline::FrameTable& frames);
+
+std::size_t skipped_records(const nlohmann::json& record);
+
+/// The value of nearest rank below which `share` of the values lie, as run.json has it; NaN
+/// without values.
+double percentile_of(std::vector<double> values, double share);
+
+}  // namespace traverse::report

@@ -1,0 +1,204 @@
+// Charts of report.json: hover reads every chart of the page at one moment, dragging zooms into all
+// that share the axis, a click takes the whole page to that moment.
+"use strict";
+(() => {
+  const kSeries = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7a7a7a", "#8c6d31"];
+  const views = [];
+  const linked = [];  // those over time or distance
+  let overDistance = false;
+  let busy = false;
+
+  const element = (name, className, text) => {
+    const result = document.createElement(name);
+    if (className) result.className = className;
+    if (text) result.textContent = text;
+    return result;
+  };
+
+  const button = (text, action) => {
+    const result = element("button", "", text);
+    result.type = "button";
+    result.addEventListener("click", action);
+    return result;
+  };
+
+  const ink = () => traverse.dark.matches
+    ? { axis: "#5b6069", grid: "#2c3038" }
+    : { axis: "#a2a8b3", grid: "#e6e8ec" };
+
+  /** Poses of the chart's values and their places on the axis. */
+  const posesOf = (chart) => chart.pose ?? traverse.report.poses.time_s.map((_, i) => i);
+  const axisOf = (chart, poses) => chart.x ??
+    poses.map((pose) => traverse.report.poses[overDistance ? "distance_m" : "time_s"][pose]);
+
+  /** Values as they are drawn: of stacked series the sums. */
+  const columnsOf = (chart) => {
+    if (!chart.stacked) return chart.series.map((series) => series.values);
+    const sums = [];
+    chart.series.forEach((series, k) => {
+      sums.push(series.values.map((value, i) => value + (k > 0 ? sums[k - 1][i] : 0)));
+    });
+    return sums;
+  };
+
+  const rowsOf = (chart, poses) => {
+    const columns = columnsOf(chart);
+    const level = chart.level ? [chart.level.value] : [];
+    return axisOf(chart, poses).map((x, i) =>
+      [x, ...columns.map((column) => (chart.log && !(column[i] > 0) ? null : column[i])), ...level]);
+  };
+
+  const readout = (view, row) => {
+    const { chart, poses, axis } = view;
+    view.readout.replaceChildren();
+    if (row === null) return;
+    const where = chart.x ? `${chart.x_name} ${traverse.short(axis[row])}` : traverse.describe(poses[row]);
+    view.readout.append(element("span", "where", where));
+    chart.series.forEach((series, k) => {
+      const item = element("span", "value");
+      const swatch = element("i");
+      swatch.style.background = kSeries[k % kSeries.length];
+      const number = element("b", "", traverse.short(series.values[row]));
+      number.dataset.value = String(series.values[row]);
+      item.append(swatch, ` ${series.name} `, number, ` ${chart.unit}`);
+      view.readout.append(item);
+    });
+    view.element.dataset.row = row;
+  };
+
+  /** The last row at or before that pose. */
+  const rowOfPose = (view, pose) => {
+    const row = view.rowOfPose.get(pose);
+    if (row !== undefined) return row;
+    let nearest = null;
+    view.poses.forEach((other, i) => { if (other <= pose) nearest = i; });
+    return nearest;
+  };
+
+  const select = (view, row) => {
+    if (row === null) view.graph.clearSelection();
+    else view.graph.setSelection(row);
+    readout(view, row);
+  };
+
+  const hover = (source, row) => {
+    const pose = source.poses[row];
+    for (const view of linked) select(view, view === source ? row : rowOfPose(view, pose));
+  };
+
+  const zoom = (source, range) => {
+    if (busy) return;
+    busy = true;
+    for (const view of linked) if (view !== source) view.graph.updateOptions({ dateWindow: range });
+    busy = false;
+  };
+
+  /** The line at the moment that the page looks at; an element, so that moving it draws nothing. */
+  const markMoment = (view) => {
+    const row = rowOfPose(view, traverse.pose);
+    const x = row === null || !view.graph ? NaN : view.graph.toDomXCoord(view.axis[row]);
+    const area = view.graph?.getArea();
+    view.mark.hidden = !(area && x >= area.x - 1 && x <= area.x + area.w + 1);
+    if (!view.mark.hidden) view.mark.style.left = `${x}px`;
+  };
+
+  /** The whole run, for all charts over time or distance. */
+  const wholeRun = () => {
+    const axis = traverse.report.poses[overDistance ? "distance_m" : "time_s"];
+    return [axis[0], axis[axis.length - 1] || 1];
+  };
+
+  const makeView = (chart, place) => {
+    const view = { chart, poses: posesOf(chart), element: element("figure", "chart") };
+    view.axis = axisOf(chart, view.poses);
+    view.rowOfPose = new Map(view.poses.map((pose, row) => [pose, row]));
+    view.element.id = `chart-${chart.id}`;
+    const head = element("div", "chart-head");
+    head.append(element("h4", "", chart.unit ? `${chart.title} [${chart.unit}]` : chart.title));
+    view.readout = element("div", "readout");
+    const canvas = element("div", "plot");
+    view.below = element("div", "axis-name", chart.x_name ?? "time [s]");
+    view.mark = element("div", "moment-mark");
+    const plot = element("div", "plot-with-mark");
+    plot.append(canvas);
+    if (!chart.x) plot.append(view.mark);
+    view.element.append(head, view.readout, plot, view.below);
+    place.append(view.element);
+    const names = chart.series.map((series) => series.name || "value");
+    const options = {
+      labels: [chart.x ? chart.x_name : "x", ...names, ...(chart.level ? [chart.level.name] : [])],
+      colors: [...names.map((_, k) => kSeries[k % kSeries.length]), ...(chart.level ? ["#8a8f98"] : [])],
+      legend: "never", logscale: chart.log, fillGraph: chart.stacked, strokeWidth: 1.5,
+      drawPoints: chart.points, pointSize: 2.5, highlightCircleSize: 4, animatedZooms: false,
+      axisLabelFontSize: 12, axisLineColor: ink().axis, gridLineColor: ink().grid, rightGap: 12,
+      includeZero: !chart.log && chart.series.every((s) => s.values.every((v) => v === null || v >= 0)),
+      connectSeparatedPoints: false,
+      highlightCallback: (event, x, points, row) => (chart.x ? readout(view, row) : hover(view, row)),
+      unhighlightCallback: () => (chart.x ? readout(view, null) : hover(view, rowOfPose(view, traverse.pose) ?? 0)),
+      zoomCallback: (least, most) => { if (!chart.x) zoom(view, [least, most]); },
+      clickCallback: (event) => {
+        const row = view.graph.getSelection();
+        if (row >= 0 && view.poses[row] !== undefined && chart.id.indexOf("kitti") !== 0) {
+          traverse.look(view.poses[row], chart.id);
+        }
+      },
+      drawCallback: () => { if (!chart.x) markMoment(view); },
+    };
+    if (chart.level) options.series = { [chart.level.name]: { strokePattern: [6, 4], strokeWidth: 1, drawPoints: false, fillGraph: false } };
+    if (chart.x) options.xRangePad = 6;
+    else options.dateWindow = wholeRun();
+    view.graph = new Dygraph(canvas, rowsOf(chart, view.poses), options);
+    if (!chart.x) {
+      linked.push(view);
+      // A double click shows the whole run again in every chart.
+      canvas.addEventListener("dblclick", () => zoom(null, wholeRun()));
+    }
+    return view;
+  };
+
+  const setAxis = (distance) => {
+    overDistance = distance;
+    for (const view of linked) {
+      view.axis = axisOf(view.chart, view.poses);
+      view.below.textContent = distance ? "distance [m]" : "time [s]";
+      view.graph.updateOptions({ file: rowsOf(view.chart, view.poses), dateWindow: wholeRun() });
+    }
+    for (const choice of document.querySelectorAll(".axis-choice button")) {
+      choice.setAttribute("aria-pressed", String((choice.dataset.axis === "distance") === distance));
+    }
+  };
+
+  const axisChoice = () => {
+    const bar = element("div", "axis-choice");
+    bar.append(element("span", "how", "Over "));
+    for (const axis of ["time", "distance"]) {
+      const choice = button(axis === "time" ? "time [s]" : "distance [m]", () => setAxis(axis === "distance"));
+      choice.dataset.axis = axis;
+      choice.setAttribute("aria-pressed", String(axis === "time"));
+      bar.append(choice);
+    }
+    bar.append(element("span", "how", "Drag to zoom, double click for all, click a moment to go there."));
+    return bar;
+  };
+
+  for (const place of document.querySelectorAll("[data-charts]")) {
+    const charts = traverse.report.charts.filter((chart) => chart.section === place.dataset.charts);
+    if (charts.length === 0) continue;
+    place.hidden = false;
+    if (charts.some((chart) => !chart.x)) place.append(axisChoice());
+    for (const chart of charts) views.push(makeView(chart, place));
+  }
+  document.documentElement.classList.add("has-charts");
+
+  const follow = () => {
+    for (const view of linked) {
+      select(view, rowOfPose(view, traverse.pose));
+      markMoment(view);
+    }
+  };
+  traverse.follow(follow);
+  traverse.dark.addEventListener("change", () => {
+    for (const view of views) view.graph.updateOptions({ axisLineColor: ink().axis, gridLineColor: ink().grid });
+  });
+  follow();
+})();
