@@ -192,7 +192,7 @@ TEST_F(RunCommand, InterruptedItEndsInOrder) {
 }
 
 TEST_F(RunCommand, ALogGetsPlainLines) {
-  EXPECT_THAT(result_->messages, AllOf(HasSubstr("floam: 13 frames"), Not(HasSubstr("\r"))));
+  EXPECT_THAT(result_->messages, AllOf(HasSubstr("traverse: 13 frames"), Not(HasSubstr("\r"))));
 }
 
 TEST_F(RunCommand, ATunnelIsReportedAsDegenerate) {
