@@ -41,7 +41,7 @@ void add_pipelines(CLI::App& app) {
   pipelines->footer(
       "Examples:\n"
       "  traverse pipelines\n"
-      "  traverse pipelines floam         every key that --set takes, its value and its meaning");
+      "  traverse pipelines traverse      every key that --set takes, its value and its meaning");
   pipelines->callback([name] {
     const InstalledFiles installed = find_installed_files();
     if (name->empty()) {

@@ -151,7 +151,7 @@ constexpr const char* kExamples = R"(Examples:
   traverse run drive.rawlog -o RUN --pipeline floam --set solver.line_residual=vector
   traverse run drive -o RUN --reference truth.tum --threads 4
 Ctrl-C ends the run in order: what is done so far is written and evaluated.
-`traverse pipelines` lists the presets, `traverse pipelines floam` their settings.)";
+`traverse pipelines` lists the presets, `traverse pipelines traverse` their settings.)";
 
 }  // namespace
 

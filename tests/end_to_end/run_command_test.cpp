@@ -115,10 +115,10 @@ TEST_F(RunCommand, TheReportCanBeMadeAgainFromTheFolder) {
 }
 
 TEST_F(RunCommand, SettingsAndRangesAreKept) {
-  const ProgramResult result =
-      run_program("run " + recording() + " -o " + file("part") +
-                  " --first 2 --last 7 --set map.radius_m=60 --no-report --no-hash "
-                  "--set solver.huber_m=0.2");
+  const ProgramResult result = run_program(
+      "run " + recording() + " -o " + file("part") +
+      " --pipeline floam --first 2 --last 7 --set map.radius_m=60 --no-report --no-hash "
+      "--set solver.huber_m=0.2");
   ASSERT_EQ(result.status, 0) << result.messages;
   const json part = record("part");
   EXPECT_EQ(part["frames"]["used"], 6);
@@ -192,7 +192,7 @@ TEST_F(RunCommand, InterruptedItEndsInOrder) {
 }
 
 TEST_F(RunCommand, ALogGetsPlainLines) {
-  EXPECT_THAT(result_->messages, AllOf(HasSubstr("floam: 13 frames"), Not(HasSubstr("\r"))));
+  EXPECT_THAT(result_->messages, AllOf(HasSubstr("traverse: 13 frames"), Not(HasSubstr("\r"))));
 }
 
 TEST_F(RunCommand, ATunnelIsReportedAsDegenerate) {

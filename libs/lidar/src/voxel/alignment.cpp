@@ -9,7 +9,7 @@
 
 #include "traverse/geometry/so3.hpp"
 
-#include "rotation_manifold.hpp"
+#include "traverse/optimization/rotation_manifold.hpp"
 #include "stopwatch.hpp"
 #include "voxel/condensed_cost.hpp"
 #include "voxel/workers.hpp"
@@ -52,7 +52,7 @@ struct Solved {
 Solved solve(CondensedCost& cost, const geometry::Pose3& guess, int iterations) {
   Eigen::Quaterniond q = guess.quaternion();
   Eigen::Vector3d t = guess.translation;
-  RotationManifold manifold;
+  optimization::RotationManifold manifold;
   ceres::Problem problem(problem_options());
   problem.AddParameterBlock(q.coeffs().data(), 4, &manifold);
   problem.AddParameterBlock(t.data(), 3);

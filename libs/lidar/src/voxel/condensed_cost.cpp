@@ -4,7 +4,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "rotation_manifold.hpp"
+#include "traverse/optimization/rotation_manifold.hpp"
 
 namespace traverse::lidar::voxel {
 
@@ -41,7 +41,7 @@ bool CondensedCost::Evaluate(double const* const* parameters, double* residuals,
     Eigen::Map<Eigen::Matrix<double, 7, 4, Eigen::RowMajor>> J(jacobians[0]);
     J.setZero();
     J.topRows<6>() =
-        4 * Lt.leftCols<3>() * RotationManifold::plus_jacobian(q.coeffs().data()).transpose();
+        4 * Lt.leftCols<3>() * optimization::RotationManifold::plus_jacobian(q.coeffs().data(), optimization::Perturbation::kRight).transpose();
   }
   if (jacobians[1] != nullptr) {
     Eigen::Map<Eigen::Matrix<double, 7, 3, Eigen::RowMajor>> J(jacobians[1]);

@@ -95,6 +95,11 @@ bool LineMap::find(const CellGrid& at, const RelativeCell& c, Answer& answer) co
   return true;
 }
 
+void LineMap::prefetch(const CellGrid& at, const RelativeCell& c) const {
+  const std::uint32_t key = cell_key(c.x + at.base[0], c.y + at.base[1], c.z + at.base[2]);
+  __builtin_prefetch(&table_[spread(key) >> (32U - bits_)]);
+}
+
 void LineMap::keep_near(const Eigen::Vector3d& centre_map, double radius_m) {
   std::size_t kept = 0;
   for (std::size_t k = 0; k < cold_.size(); ++k) {

@@ -146,6 +146,10 @@ void associate(const SweepSample& sample, const LocalPoints& planar, const Local
     const std::size_t end = std::min(edges.size(), (c + 1) * kChunk);
     std::size_t row = c * kChunk;
     for (std::size_t i = c * kChunk; i < end; ++i) {
+      if (i + kAhead < end && !matches.line_answers[i + kAhead].asked) {
+        const std::size_t k = i + kAhead;
+        map.lines().prefetch(grid, grid.cell(edges.x[k], edges.y[k], edges.z[k]));
+      }
       const LineMap::Answer* found =
           ask(map.lines(), grid, grid.cell(edges.x[i], edges.y[i], edges.z[i]),
               matches.line_answers[i]);

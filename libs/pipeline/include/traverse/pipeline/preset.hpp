@@ -11,7 +11,7 @@ namespace traverse::pipeline {
 
 /// What the user asks of a preset: files and single keys on top of it.
 struct PresetRequest {
-  std::string name = "floam";  ///< of share/pipelines/NAME.yaml, or the path of a YAML file
+  std::string name = "traverse";  ///< of share/pipelines/NAME.yaml, or the path of a YAML file
   std::vector<std::filesystem::path> config_files;  ///< laid over the preset in order
   std::vector<std::string> assignments;             ///< "solver.huber_m=0.2", the strongest
 };

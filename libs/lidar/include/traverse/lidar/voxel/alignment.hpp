@@ -12,8 +12,8 @@ struct AlignmentOptions {
   int iterations = 1;          ///< of Levenberg-Marquardt in a round
   double gate_m = 0.6;         ///< farther planes and lines do not match, in the first two rounds;
   double narrow_gate_m = 0.3;  ///< then half of it each round, down to this
-  double converged_m = 0.001;  ///< a round that moves the pose by less than both is the last
-  double converged_deg = 0.003;
+  double converged_m = 0.002;  ///< a round that moves the pose by less than both is the last
+  double converged_deg = 0.006;
   int least_matches = 50;           ///< with fewer the prediction stands
   double least_eigenvalue = 0.001;  ///< smaller: the direction is degenerate (Observability)
   MatchOptions matches;

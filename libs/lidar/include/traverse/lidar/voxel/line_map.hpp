@@ -39,6 +39,9 @@ class LineMap {
   /// \returns false if the cell has no line.
   bool find(const CellGrid& grid, const RelativeCell& cell, Answer& answer) const;
 
+  /// Starts to fetch what find() will read first for the cell.
+  void prefetch(const CellGrid& grid, const RelativeCell& cell) const;
+
   CellGrid grid(const Eigen::Vector3d& origin_map) const { return {origin_map, options_.cell_m}; }
   std::size_t size() const { return cold_.size(); }
   std::size_t bytes() const;
