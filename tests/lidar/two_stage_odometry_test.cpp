@@ -250,18 +250,22 @@ TEST_P(TwoStage, SaysWhyItDoesNotDeskew) {
 TEST(TwoStageOdometry, TheGyroCarriesARotationThatConstantVelocityCannotKnow) {
   SimulatedDrive drive(simulation::street(60, 1), 16, swerving());
   for (const std::size_t blind : {8U, 9U, 10U}) drive.scans[blind] = cut(drive.scans[blind], 0);
-  const TwoStageOdometryOptions loam = preset(SweepMotion::kDeskew);
   const auto gyro = testing::simulated_gyro(drive.drive, -0.1, 1.6);
-  const double without = rotation_error(run(drive, loam)[10], drive);
-  const double with_gyro = rotation_error(run(drive, loam, gyro)[10], drive);
-  EXPECT_LT(with_gyro, 0.005);
-  EXPECT_GT(without, 5 * with_gyro);
+  const auto without = run(drive, preset(SweepMotion::kDeskew));
+  const auto with_gyro = run(drive, preset(SweepMotion::kDeskew), gyro);
+  EXPECT_EQ(without[10].further[8], 0);
+  EXPECT_EQ(with_gyro[10].further[8], 1) << "turn measured";
+  EXPECT_LT(rotation_error(with_gyro[10], drive), 0.005);
+  EXPECT_GT(rotation_error(without[10], drive), 5 * rotation_error(with_gyro[10], drive));
 }
 
 TEST(TwoStageOdometry, AnImuThatStopsIsMissedNotFollowed) {
   const SimulatedDrive drive(simulation::street(60, 1), 16, swerving());
   const auto gyro = testing::simulated_gyro(drive.drive, -0.1, 0.5);
-  EXPECT_LT(worst_position_error(run(drive, preset(SweepMotion::kDeskew), gyro), drive), 0.1);
+  const auto frames = run(drive, preset(SweepMotion::kDeskew), gyro);
+  EXPECT_EQ(frames[4].further[8], 1);
+  EXPECT_EQ(frames[8].further[8], 0);
+  EXPECT_LT(worst_position_error(frames, drive), 0.1);
 }
 
 }  // namespace

@@ -26,16 +26,24 @@ std::string describe_deskew(const TwoStageOdometryOptions& options,
   return "on";
 }
 
-/// The health of the first stage, in the order of further_columns().
-std::vector<double> record_of(const RegistrationHealth& odometry) {
-  return {odometry.registered ? 1.0 : 0.0,
-          static_cast<double>(odometry.line_matches),
-          static_cast<double>(odometry.plane_matches),
-          odometry.residual_rms_m,
-          odometry.inlier_share,
-          static_cast<double>(odometry.iterations),
-          static_cast<double>(odometry.observability.degenerate),
-          odometry.observability.eigenvalues[0]};
+/// What the first stage tells of a frame beyond what all odometry does.
+struct FirstStage {
+  RegistrationHealth health;
+  bool turn_is_measured = false;
+};
+
+/// In the order of further_columns().
+std::vector<double> record_of(const FirstStage& stage) {
+  const RegistrationHealth& health = stage.health;
+  return {health.registered ? 1.0 : 0.0,
+          static_cast<double>(health.line_matches),
+          static_cast<double>(health.plane_matches),
+          health.residual_rms_m,
+          health.inlier_share,
+          static_cast<double>(health.iterations),
+          static_cast<double>(health.observability.degenerate),
+          health.observability.eigenvalues[0],
+          stage.turn_is_measured ? 1.0 : 0.0};
 }
 
 }  // namespace
@@ -108,7 +116,8 @@ const std::vector<std::string>& TwoStageOdometry::further_columns() const {
                                                  "odometry_inlier_share",
                                                  "odometry_solver_iterations",
                                                  "odometry_degenerate_directions",
-                                                 "odometry_eigenvalue_1"};
+                                                 "odometry_eigenvalue_1",
+                                                 "odometry_turn_measured"};
   return kColumns;
 }
 
@@ -163,15 +172,15 @@ Frame TwoStageOdometry::advance(const Prepared& scan) {
   frame.class_counts = scan.features.class_counts;
   frame.ms = scan.ms;
   frame.velocity = velocity_;
-  RegistrationHealth odometry;
+  FirstStage odometry;
 
   if (frames_ > 0) {
     const MotionPrediction prediction = predict(frame.stamp);
     const ScanMotion motion = scan_to_scan_.follow(scan.sweep, prediction, frame.ms);
-    odometry = motion.health;
+    odometry = {motion.health, prediction.turn_is_measured};
     T_odom_lidar_ = (T_odom_lidar_ * motion.T_last_current).orthonormalised();
-    frame.velocity = odometry.registered ? prediction.velocity_given(motion.T_last_current)
-                                         : prediction.velocity;
+    frame.velocity = odometry.health.registered ? prediction.velocity_given(motion.T_last_current)
+                                                : prediction.velocity;
 
     const Registration refined = map_.align(scan.features, T_map_odom_ * T_odom_lidar_,
                                             frame.velocity, options_.registration_steps, frame.ms);
@@ -182,14 +191,14 @@ Frame TwoStageOdometry::advance(const Prepared& scan) {
       T_map_odom_ = frame.T_map_lidar * T_odom_lidar_.inverse();
       frame.velocity = prediction.velocity_given(T_last_current);
     }
-    const bool moved = refined.health.registered || odometry.registered;
+    const bool moved = refined.health.registered || odometry.health.registered;
     if (moved && prediction.interval_s > 0) {
       velocity_ = geometry::log_se3(T_last_current) / prediction.interval_s;
     }
   }
   // A pose that is only predicted does not shape the map, unless there is no map yet.
   const bool map_is_empty = map_.size() < static_cast<std::size_t>(options_.solver.least_matches);
-  if (frame.health.registered || odometry.registered || map_is_empty) {
+  if (frame.health.registered || odometry.health.registered || map_is_empty) {
     map_.insert(scan.features, frame.T_map_lidar, frame.velocity, frame.ms);
   }
   scan_to_scan_.remember(scan.sweep, frame.velocity, frame.ms);

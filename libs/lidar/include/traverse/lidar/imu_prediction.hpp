@@ -12,8 +12,8 @@
 namespace traverse::lidar {
 
 struct ImuOptions {
-  bool use = false;            ///< where the recording has an IMU
-  double longest_gap_s = 0.1;  ///< without samples, that is bridged
+  bool use = false;             ///< where the recording has an IMU
+  double longest_gap_s = 0.15;  ///< without samples, that is bridged
 };
 void bind(config::Binder& binder, ImuOptions& options);
 
