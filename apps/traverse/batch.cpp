@@ -19,6 +19,7 @@
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/numbers.hpp"
 
+#include "batch_plan_text.hpp"
 #include "batch_progress.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
@@ -93,49 +94,6 @@ batch::Shard parse_shard(const std::string& text) {
     throw CLI::ValidationError("--shard", "expected i/n with i from 1 to n, found '" + text + "'");
   }
   return {static_cast<std::size_t>(*number), static_cast<std::size_t>(*of)};
-}
-
-std::string recording_text(const batch::PlannedRecording& recording) {
-  std::string text = recording.path.string();
-  if (recording.generated) {
-    text = fmt::format("traverse simulate {}", recording.generated->world);
-    for (const std::string& word : recording.generated->arguments) text += " " + word;
-  }
-  if (!recording.reference.empty()) text += ", reference " + recording.reference.string();
-  if (recording.first > 0 || recording.last >= 0) {
-    text += fmt::format(", frames {} to {}", recording.first,
-                        recording.last < 0 ? "the end" : std::to_string(recording.last));
-  }
-  return text;
-}
-
-void print_plan(const batch::Plan& plan) {
-  if (!plan.description.empty()) fmt::print("{}\n\n", plan.description);
-  fmt::print("recordings\n");
-  for (const auto& recording : plan.recordings) {
-    fmt::print("  {:<24}{}\n", recording.name, recording_text(recording));
-  }
-  fmt::print("pipelines\n");
-  for (const auto& pipeline : plan.pipelines) {
-    fmt::print("  {:<24}{}", pipeline.name, pipeline.preset);
-    for (const std::string& assignment : pipeline.assignments) fmt::print(" {}", assignment);
-    fmt::print("\n");
-    for (const auto& axis : pipeline.grid) {
-      fmt::print("  {:<24}{} in {}\n", "", axis.key, fmt::join(axis.values, ", "));
-    }
-  }
-  const batch::RunLimits& limits = plan.limits;
-  fmt::print("limits a run\n  {:g} s, {}, {} thread{}, {} attempts if killed from outside\n",
-             limits.time_s,
-             limits.memory_mb > 0 ? fmt::format("{:g} MB", limits.memory_mb) : "no memory limit",
-             limits.threads, limits.threads == 1 ? "" : "s", limits.attempts);
-  fmt::print("metrics\n  {} (ranks)", plan.metrics.front());
-  for (std::size_t i = 1; i < plan.metrics.size(); ++i) fmt::print(", {}", plan.metrics[i]);
-  fmt::print("\n");
-  for (const auto& budget : plan.budgets) {
-    fmt::print("  budget: {} at most {:g}\n", budget.metric, budget.most);
-  }
-  fmt::print("\n{}\n", batch::describe(plan));
 }
 
 /// What is wrong with the end of a batch, or nothing.

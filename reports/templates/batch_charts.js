@@ -23,6 +23,20 @@ function rangeOf(values) {
   return [low, high];
 }
 
+// An axis of values: linear, or logarithmic where all values are above zero.
+function axisOf(values, wanted) {
+  if (wanted !== "log" || Math.min(...values) <= 0) {
+    const [low, high] = rangeOf(values);
+    return { share: (value) => (value - low) / (high - low), ticks: ticksOf(low, high) };
+  }
+  const low = Math.log10(Math.min(...values) / 1.2);
+  const high = Math.log10(Math.max(...values) * 1.2);
+  const factors = high - low < 3 ? [1, 2, 5] : [1];
+  const ticks = [];
+  for (let power = Math.floor(low); power <= high; ++power) ticks.push(...factors.map((factor) => factor * 10 ** power));
+  return { share: (value) => (Math.log10(value) - low) / (high - low), ticks: ticks.filter((tick) => Math.log10(tick) >= low && Math.log10(tick) <= high) };
+}
+
 function quantile(sorted, share) {
   const place = share * (sorted.length - 1);
   const below = Math.floor(place);
@@ -38,7 +52,7 @@ function leftAxis(ticks, y, left, right, title) {
 }
 const shortAxis = (value) => String(Number(value.toPrecision(6))).replace("-", "−");
 
-function drawBoxes(metricIndex, boxesBy, groupsBy) {
+function drawBoxes(metricIndex, boxesBy, groupsBy, scale) {
   const figure = document.getElementById("boxes");
   const metric = data.metrics[metricIndex];
   const boxNames = boxesBy === "pipeline" ? data.pipelines : data.variants.map((variant) => variant.name);
@@ -61,12 +75,12 @@ function drawBoxes(metricIndex, boxesBy, groupsBy) {
   }
   const left = 64, top = 28, height = 300, bottom = 64;
   const width = Math.max(1040, left + boxes * 18 + groupNames.length * 24);
-  const [low, high] = rangeOf(all);
-  const y = (value) => top + height * (1 - (value - low) / (high - low));
+  const axis = axisOf(all, scale);
+  const y = (value) => top + height * (1 - axis.share(value));
   const groupWidth = (width - left - 16) / groupNames.length;
   const slot = (groupWidth - 24) / boxNames.length;
   const boxWidth = Math.min(36, slot * 0.7);
-  let svg = leftAxis(ticksOf(low, high), y, left, width - 16, withUnit(metric));
+  let svg = leftAxis(axis.ticks, y, left, width - 16, withUnit(metric));
   groups.forEach((group, g) => {
     const start = left + g * groupWidth + 12;
     group.forEach((values, b) => {
@@ -168,7 +182,7 @@ const views = [
   { needs: ["metric"], draw: () => drawMatrix(Number(choice.metric)) },
   { needs: ["recording"], draw: () => drawRecording(Number(choice.recording)) },
   { needs: ["variant"], draw: () => drawPipeline(Number(choice.variant)) },
-  { needs: ["metric", "boxes", "groups"], draw: () => drawBoxes(Number(choice.metric), choice.boxes, choice.groups) },
+  { needs: ["metric", "boxes", "groups", "scale"], draw: () => drawBoxes(Number(choice.metric), choice.boxes, choice.groups, choice.scale) },
   { needs: ["parameter", "metric"], draw: () => choice.parameter && drawSweep(choice.parameter, Number(choice.metric)) },
 ];
 function redraw(changed) {
@@ -183,6 +197,7 @@ fill("variant", data.variants.map((variant, v) => [v, variant.name]));
 fill("parameter", [...gridParameters().keys()].map((key) => [key, key]));
 fill("boxes");
 fill("groups");
+fill("scale");
 drawLeaderboard();
 drawBaseline();
 redraw();

@@ -12,8 +12,9 @@ std::string program_id(const std::filesystem::path& program,
   const pipeline::BuildInfo build = pipeline::build_info();
   std::string id = fmt::format("traverse {} {} {}", build.version, build.commit, build.build_type);
   if (build.commit.find("dirty") == std::string::npos && build.commit != "unknown") return id;
-  return id + fmt::format(" {} {}", files::sha256_of_file(program),
-                          files::content_id(share_folder).sha256);
+  return id + fmt::format(" {} {} {}", files::sha256_of_file(program),
+                          files::content_id(share_folder / "pipelines").sha256,
+                          files::content_id(share_folder / "sensors").sha256);
 }
 
 }  // namespace traverse::batch
