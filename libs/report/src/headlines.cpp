@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, 7> kHeadlines{
 
 std::string interval_text(const RunFigure& figure) {
   if (!figure.interval) return figure.no_interval;
-  return fmt::format("{} to {} ({} %, blocks of {})", short_number(figure.interval->low),
+  return fmt::format("{} to {} ({}\u00a0%, blocks of {})", short_number(figure.interval->low),
                      short_number(figure.interval->high), 100 * figure.interval->confidence,
                      figure.interval->block_length);
 }
