@@ -60,15 +60,13 @@ fs::path this_program() { return fs::read_symlink("/proc/self/exe"); }
 /// Whether `traverse simulate WORDS` would begin: its own arguments are asked.
 std::optional<std::string> simulation_error(const std::vector<std::string>& words) {
   CLI::App probe;
-  add_simulate(probe);
-  CLI::App* simulate = probe.get_subcommand("simulate");
-  simulate->callback([] {});
+  add_simulate_check(probe);
   std::vector<std::string> reversed{"x.rawlog", "-o"};
   reversed.insert(reversed.end(), words.rbegin(), words.rend());
   reversed.emplace_back("simulate");
   try {
     probe.parse(reversed);
-  } catch (const CLI::ParseError& error) {
+  } catch (const std::exception& error) {
     return error.what();
   }
   return std::nullopt;

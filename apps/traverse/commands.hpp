@@ -19,5 +19,7 @@ void add_pipelines(CLI::App& app);
 void add_report(CLI::App& app);
 void add_run(CLI::App& app);
 void add_simulate(CLI::App& app);
+/// `simulate` that only checks its arguments: world, sensor and settings are there and right.
+void add_simulate_check(CLI::App& app);
 
 }  // namespace traverse::app

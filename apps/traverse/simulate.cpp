@@ -165,13 +165,17 @@ void write_camera_poses(const dataset::RecordingInfo& info, const geometry::Traj
                        T_map_body.transformed_left(T_first_map).transformed_right(T_body_camera));
 }
 
-void simulate(const SimulateArguments& arguments) {
-  const InstalledFiles installed = find_installed_files();
+simulation::WorldDescription chosen_world(const SimulateArguments& arguments,
+                                          const fs::path& share) {
   std::vector<std::string> overrides = arguments.overrides;
   if (arguments.seed) overrides.push_back(fmt::format("seed={}", *arguments.seed));
   if (!arguments.sensor.empty()) overrides.push_back("sensor=" + arguments.sensor);
-  const auto world =
-      simulation::load_world(simulation::find_world(arguments.world, installed.share), overrides);
+  return simulation::load_world(simulation::find_world(arguments.world, share), overrides);
+}
+
+void simulate(const SimulateArguments& arguments) {
+  const InstalledFiles installed = find_installed_files();
+  const simulation::WorldDescription world = chosen_world(arguments, installed.share);
   const Simulation simulation = make_simulation(world, find_sensor(world.sensor, installed.share));
   const SweepRange sweeps = choose_sweeps(simulation, arguments);
   const std::size_t scans = sweeps.end - sweeps.first;
@@ -230,10 +234,8 @@ void check(const SimulateArguments& arguments) {
   }
 }
 
-}  // namespace
-
-void add_simulate(CLI::App& app) {
-  auto arguments = std::make_shared<SimulateArguments>();
+/// The command with its options, and nothing yet that it does.
+CLI::App* declare(CLI::App& app, const std::shared_ptr<SimulateArguments>& arguments) {
   CLI::App* command = app.add_subcommand(
       "simulate",
       "drive a lidar, an IMU, wheels and GNSS through a made-up place; write the recording with "
@@ -271,13 +273,29 @@ void add_simulate(CLI::App& app) {
       ->check(CLI::Range(0, 9))
       ->capture_default_str();
   command->footer(kExamples);
-  command->callback([arguments] {
+  return command;
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app) {
+  const auto arguments = std::make_shared<SimulateArguments>();
+  declare(app, arguments)->callback([arguments] {
     check(*arguments);
     if (arguments->list) {
       list(find_installed_files().share);
     } else {
       simulate(*arguments);
     }
+  });
+}
+
+void add_simulate_check(CLI::App& app) {
+  const auto arguments = std::make_shared<SimulateArguments>();
+  declare(app, arguments)->callback([arguments] {
+    check(*arguments);
+    const fs::path share = find_installed_files().share;
+    find_sensor(chosen_world(*arguments, share).sensor, share);
   });
 }
 

@@ -27,7 +27,7 @@ using testing::TemporaryFolder;
 
 constexpr const char* kPlan = R"(
 recordings:
-  - {simulate: street, arguments: {length: 2}}
+  - {simulate: town_short, arguments: {first: 80, duration: 0.3}}
 pipelines:
   - {preset: floam, set: {start.scans: 0, first_registration_steps: 2}}
 grid: {solver.huber_m: [0.05, 0.1, 0.15, 0.2, 0.25]}

@@ -34,7 +34,7 @@ using testing::TemporaryFolder;
 /// Forty short runs: a street of three scans, without the search for the start.
 constexpr const char* kForty = R"(
 recordings:
-  - {simulate: street, arguments: {length: 2}}
+  - {simulate: town_short, arguments: {first: 80, duration: 0.3}}
 pipelines:
   - {preset: floam, set: {start.scans: 0, first_registration_steps: 2}}
 grid:
@@ -170,7 +170,8 @@ TEST_F(Batch, ShardsMakeEachRunOnceAndTogetherAll) {
 TEST_F(Batch, EveryFailureIsARowAndTheRestGoesOn) {
   files::write_text(folder_ / "broken.rawlog", "no rawlog");
   const std::string recordings =
-      "recordings:\n  - broken.rawlog\n  - {simulate: street, arguments: {length: 2}}\n"
+      "recordings:\n  - broken.rawlog\n  - {simulate: town_short, arguments: {first: 80, duration: "
+      "0.3}}\n"
       "pipelines: [floam]\nreports: false\nmetrics: [wall_s]\n";
   const ProgramResult result = batch(recordings, "-o " + file("out"));
   EXPECT_EQ(result.status, 1);
@@ -194,7 +195,8 @@ TEST_F(Batch, EveryFailureIsARowAndTheRestGoesOn) {
 
 TEST_F(Batch, ABrokenBudgetIsTold) {
   const std::string plan =
-      "recordings: [{simulate: street, arguments: {length: 2}}]\npipelines: [floam]\n"
+      "recordings: [{simulate: town_short, arguments: {first: 80, duration: 0.3}}]\npipelines: "
+      "[floam]\n"
       "reports: false\nmetrics: [wall_s]\nbudgets: {wall_s: 0.001}\n";
   const ProgramResult result = batch(plan, "-o " + file("out"));
   EXPECT_EQ(result.status, 1);
@@ -217,12 +219,13 @@ TEST_F(Batch, WrongPlansAreRefusedAtOnce) {
     EXPECT_THAT(result.everything(), AllOf(HasSubstr("plan.yaml, line "), HasSubstr(part)));
     EXPECT_FALSE(fs::exists(folder_ / "out")) << plan;
   };
-  const std::string street = "recordings: [{simulate: street}]\n";
+  const std::string street = "recordings: [{simulate: town_short}]\n";
   refused(street + "pipeline: [floam]\n", "did you mean 'pipelines'");
   refused(street + "pipelines: [floam, floam]\n", "again");
   refused("recordings: [nowhere.rawlog]\npipelines: [floam]\n", "nowhere.rawlog");
   refused("recordings: [{simulate: moon}]\npipelines: [floam]\n", "moon");
-  refused("recordings: [{simulate: street, arguments: {size: 3}}]\npipelines: [floam]\n", "--size");
+  refused("recordings: [{simulate: town_short, arguments: {size: 3}}]\npipelines: [floam]\n",
+          "--size");
   refused(street + "pipelines: [floam]\nlimits: {threads: 256}\n", "cores");
   refused(street + "pipelines: [floam]\nlimits: {time_s: 0}\n", "limits.time_s");
   refused(street + "pipelines: [floam\n", "YAML");
@@ -233,8 +236,9 @@ TEST_F(Batch, WrongPlansAreRefusedAtOnce) {
 TEST_F(Batch, CheckExplainsAndRunsNothing) {
   const ProgramResult result = batch(kForty, "--check");
   EXPECT_EQ(result.status, 0) << result.everything();
-  EXPECT_THAT(result.output, AllOf(HasSubstr("= 40 runs"), HasSubstr("traverse simulate street"),
-                                   HasSubstr("solver.huber_m in 0.05")));
+  EXPECT_THAT(result.output,
+              AllOf(HasSubstr("= 40 runs"), HasSubstr("traverse simulate town_short"),
+                    HasSubstr("solver.huber_m in 0.05")));
 }
 
 }  // namespace

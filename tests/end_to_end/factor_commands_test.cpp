@@ -95,9 +95,10 @@ TEST(BenchFactors, IsAPartOfARunAndOfItsReportWhenAskedFor) {
   const TemporaryFolder folder;
   const std::string street = (folder / "street.rawlog").string();
   const std::string run = (folder / "run").string();
-  ASSERT_EQ(run_program("simulate street --length 4 -o " + street).status, 0);
-  const ProgramResult result = run_program("run " + street + " -o " + run +
-                                           " --set solver.perturbation=left --bench-factors");
+  ASSERT_EQ(run_program("simulate town_short --first 80 --duration 0.5 -o " + street).status, 0);
+  const ProgramResult result =
+      run_program("run " + street + " -o " + run +
+                  " --pipeline floam --set solver.perturbation=left --bench-factors");
   ASSERT_EQ(result.status, 0) << result.messages;
   const json bench = read_json(folder / "run/factor_bench.json");
   EXPECT_EQ(bench["frame"], 4);
@@ -110,7 +111,9 @@ TEST(BenchFactors, IsAPartOfARunAndOfItsReportWhenAskedFor) {
   EXPECT_THAT(files::read_text(folder / "run/report.html"),
               AllOf(HasSubstr("id=\"jacobians\""), HasSubstr("id=\"derivatives\"")));
 
-  ASSERT_EQ(run_program("run " + street + " -o " + run + " --no-hash --no-report").status, 0);
+  ASSERT_EQ(run_program("run " + street + " -o " + run + " --pipeline floam --no-hash --no-report")
+                .status,
+            0);
   EXPECT_FALSE(std::filesystem::exists(folder / "run/factor_bench.json")) << "of the earlier run";
   EXPECT_TRUE(std::filesystem::exists(folder / "run/jacobians.json"));
 }
@@ -118,7 +121,7 @@ TEST(BenchFactors, IsAPartOfARunAndOfItsReportWhenAskedFor) {
 TEST(BenchFactors, TellsWhatItCannotMeasure) {
   const TemporaryFolder folder;
   const std::string street = (folder / "street.rawlog").string();
-  ASSERT_EQ(run_program("simulate street --length 2 -o " + street).status, 0);
+  ASSERT_EQ(run_program("simulate town_short --first 80 --duration 0.3 -o " + street).status, 0);
   const ProgramResult result = run_program("bench-factors " + street + " --frame 9");
   EXPECT_EQ(result.status, 1);
   EXPECT_THAT(result.messages, HasSubstr("frame 9 is asked for, but the recording has only 3"));
@@ -130,15 +133,16 @@ TEST(BenchFactors, TellsWhatItCannotMeasure) {
 TEST(SolverChoices, EveryDerivativeAndPerturbationRunsToTheSameTrajectory) {
   const TemporaryFolder folder;
   const std::string street = (folder / "street.rawlog").string();
-  ASSERT_EQ(run_program("simulate street --length 3 -o " + street).status, 0);
+  ASSERT_EQ(run_program("simulate town_short --first 80 --duration 0.4 -o " + street).status, 0);
   std::optional<geometry::Trajectory> first;
   for (const std::string choice :
        {"analytic --set solver.perturbation=right", "automatic --set solver.perturbation=left",
         "numeric --set solver.plane_residual=absolute"}) {
-    const ProgramResult result = run_program("run " + street + " -o " + (folder / "r").string() +
-                                             " --no-report --no-hash --set start.scans=0 "
-                                             "--set solver.derivative=" +
-                                             choice);
+    const ProgramResult result =
+        run_program("run " + street + " -o " + (folder / "r").string() +
+                    " --pipeline floam --no-report --no-hash --set start.scans=0 "
+                    "--set solver.derivative=" +
+                    choice);
     ASSERT_EQ(result.status, 0) << result.messages;
     const auto trajectory =
         dataset::read_trajectory(folder / "r/trajectory.tum", dataset::TrajectoryFormat::kTum);

@@ -30,7 +30,8 @@ InputError error_at(const config::Document& document, const fs::path& file, cons
   const auto origin = document.origin(key);
   const std::string what = expected + " for '" + key + "'";
   if (!origin) return {file, FilePlace::key(key), what, found};
-  return {origin->source, origin->line > 0 ? FilePlace::line(origin->line) : FilePlace{}, what, found};
+  return {origin->source, origin->line > 0 ? FilePlace::line(origin->line) : FilePlace{}, what,
+          found};
 }
 
 void check(const WorldDescription& world, const config::Document& document, const fs::path& file) {
@@ -88,8 +89,8 @@ fs::path find_world(const std::string& name, const fs::path& share) {
     if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
   }
   std::sort(names.begin(), names.end());
-  throw InputError(folder, FilePlace::whole_file(), fmt::format("a world ({})", fmt::join(names, ", ")),
-                   files::in_quotes(name));
+  throw InputError(folder, FilePlace::whole_file(),
+                   fmt::format("a world ({})", fmt::join(names, ", ")), files::in_quotes(name));
 }
 
 }  // namespace traverse::simulation

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "traverse/geometry/so3.hpp"
-
 #include "traverse/optimization/rotation_manifold.hpp"
+
 #include "voxel/workers.hpp"
 
 namespace traverse::lidar::voxel {
@@ -153,7 +153,9 @@ TEST(CondensedCost, HasTheValueGradientAndModelOfTheWholeScan) {
   double* jacobians[] = {J_q.data(), J_t.data()};
   ASSERT_TRUE(cost.Evaluate(parameters, r.data(), jacobians));
   Eigen::Matrix<double, 7, 6> J;
-  J << J_q * optimization::RotationManifold::plus_jacobian(q.coeffs().data(), optimization::Perturbation::kRight), J_t;
+  J << J_q * optimization::RotationManifold::plus_jacobian(q.coeffs().data(),
+                                                           optimization::Perturbation::kRight),
+      J_t;
   EXPECT_NEAR(0.5 * r.squaredNorm(), normal.cost, 1e-6 * normal.cost);
   EXPECT_TRUE((J.transpose() * r).isApprox(normal.g, 1e-5));
   EXPECT_TRUE((J.transpose() * J).isApprox(normal.H, 1e-5));

@@ -21,8 +21,8 @@ struct Image {
   /// The bytes of a PNG file. Equal images give equal bytes.
   std::string encode_png() const;
 
-  /// The bytes of a WebP file with losses that the eye does not see at `quality` 80 of 100: a map of
-  /// points in a third of the bytes of a PNG.
+  /// The bytes of a WebP file with losses that the eye does not see at `quality` 80 of 100: a map
+  /// of points in a third of the bytes of a PNG.
   std::string encode_webp(int quality = 80) const;
 
   /// Writes a PNG file, atomically. \throws files::OutputError if the folder is missing, the disk
