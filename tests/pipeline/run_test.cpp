@@ -64,6 +64,9 @@ class KnowingEstimator : public Estimator {
   }
   std::string points_are() const override { return "as made"; }
   std::vector<Decision> decisions() const override { return {{"deskew", "off"}}; }
+  std::unique_ptr<Estimator> clone() const override {
+    return std::make_unique<KnowingEstimator>(*this);
+  }
 
   std::optional<geometry::Stamp> fail_at;
 
