@@ -1,0 +1,15 @@
+#pragma once
+
+#include <nanogui/widget.h>
+
+namespace traverse::app {
+
+/// Keys and mouse, over the view.
+class HelpOverlay : public nanogui::Widget {
+ public:
+  explicit HelpOverlay(nanogui::Widget* parent) : nanogui::Widget(parent) {}
+
+  void draw(NVGcontext* context) override;
+};
+
+}  // namespace traverse::app
