@@ -10,6 +10,7 @@ class HelpOverlay : public nanogui::Widget {
   explicit HelpOverlay(nanogui::Widget* parent) : nanogui::Widget(parent) {}
 
   void draw(NVGcontext* context) override;
+  nanogui::Vector2i preferredSize(NVGcontext*) const override { return {640, 500}; }
 };
 
 }  // namespace traverse::app

@@ -14,6 +14,13 @@ constexpr int kHeight = 240;
 constexpr int kMargin = 20;
 constexpr double kWait = 0.05;
 
+bool is_closing_key(GLFWwindow* window) {
+  for (const int key : {GLFW_KEY_Q, GLFW_KEY_ESCAPE, GLFW_KEY_ENTER}) {
+    if (glfwGetKey(window, key) == GLFW_PRESS) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void show_message(const std::string& title, const std::string& message) {
@@ -34,7 +41,9 @@ void show_message(const std::string& title, const std::string& message) {
     close->setCallback([&open] { open = false; });
     screen->performLayout();
     screen->setVisible(true);
+    glfwSetInputMode(screen->glfwWindow(), GLFW_STICKY_KEYS, GLFW_TRUE);
     while (open && glfwWindowShouldClose(screen->glfwWindow()) == 0) {
+      if (is_closing_key(screen->glfwWindow())) break;
       screen->drawAll();
       glfwWaitEventsTimeout(kWait);
     }

@@ -83,6 +83,7 @@ void ReplayWindow::arrange() {
   transport_->performLayout(nvgContext());
   panel_->performLayout(nvgContext());
   help_->setPosition({kHelpLeft, kHelpTop});
+  help_->setSize(help_->preferredSize(nvgContext()));
   scene_.set_view(static_cast<double>(view_width) / all.x(),
                   static_cast<double>(view_height) / all.y(),
                   static_cast<double>(TransportBar::kHeight) / all.y());
@@ -136,7 +137,8 @@ void ReplayWindow::drawAll() {
 void ReplayWindow::refresh_texts() {
   last_texts_ = Clock::now();
   panel_->refresh(scene_.legend());
-  transport_->refresh(fmt::format("{:.0f} of {:.0f} thousand map points drawn, {:.0f} ms a redraw",
+  transport_->refresh(fmt::format("{:.0f} thousand points drawn of a map of {:.0f} thousand, "
+                                  "{:.0f} ms a redraw",
                                   static_cast<double>(scene_.points_drawn()) / 1000,
                                   static_cast<double>(scene_.map_points()) / 1000,
                                   1000 * redraw_s_));

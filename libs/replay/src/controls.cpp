@@ -62,6 +62,11 @@ std::size_t Controls::wanted_in(const Timeline& timeline) const {
   return std::min(wanted_, std::max(there, origin_));
 }
 
+bool Controls::is_settled(std::size_t shown, const Timeline& timeline) const {
+  const bool waits_for_the_end = wanted_ == kEnd && !timeline.complete();
+  return !playing_ && !waits_for_the_end && shown == wanted_in(timeline);
+}
+
 std::size_t Controls::advance(double seconds, std::size_t shown, const Timeline& timeline) {
   // "The end" of a recording whose end is not known yet stays asked for until it is.
   if (timeline.complete() || wanted_ != kEnd) wanted_ = wanted_in(timeline);

@@ -127,9 +127,12 @@ ChosenPoints MapHistory::choose(std::size_t frames, const Eigen::Vector3f& focus
     (total(middle) > static_cast<double>(budget) ? most : least) = middle;
   }
 
+  double owed = 0;  // fractions of points: carried on, or far blocks would never show one
   for (const Part& part : parts) {
     const double share = std::min(1.0, least * static_cast<double>(part.nearness));
-    auto left = static_cast<std::size_t>(share * static_cast<double>(part.count));
+    owed += share * static_cast<double>(part.count);
+    std::size_t left = std::min(static_cast<std::size_t>(owed), part.count);
+    owed -= static_cast<double>(left);
     for (int l = kLevels - 1; l >= 0 && left > 0; --l) {
       const auto& level = part.block->levels[static_cast<std::size_t>(l)];
       const std::size_t take = std::min(left, below(level, chosen.of));

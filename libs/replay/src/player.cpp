@@ -80,8 +80,8 @@ PlayerStatus Player::status() const {
   status.frames = timeline_.size();
   status.frames_complete = timeline_.complete();
   if (shown_) status.shown = shown_->frame;
-  status.settled = !controls_.playing() && jobs_.empty() && !has_job_ && shown_ &&
-                   shown_->frame == controls_.wanted_in(timeline_);
+  status.settled = jobs_.empty() && !has_job_ && shown_ &&
+                   controls_.is_settled(shown_->frame, timeline_);
   return status;
 }
 

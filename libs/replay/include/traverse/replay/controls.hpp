@@ -52,6 +52,9 @@ class Controls {
   /// The frame that is asked for, among those there are.
   std::size_t wanted_in(const Timeline& timeline) const;
 
+  /// Whether nothing moves any more: paused, with the frame that is asked for on show.
+  bool is_settled(std::size_t shown, const Timeline& timeline) const;
+
   /// Lets `seconds` of wall time pass. \param shown the frame on show  \returns wanted_in()
   std::size_t advance(double seconds, std::size_t shown, const Timeline& timeline);
 
