@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nanovg.h>
 #include <utility>
 
 #include <fmt/format.h>
-#include <nanovg.h>
 
 #include "traverse/render/theme.hpp"
 
@@ -23,8 +23,8 @@ constexpr double kClip = 0.97;  // larger values than this share leave the chart
 float percentile(std::vector<float> values, double share) {
   std::erase_if(values, [](float value) { return !std::isfinite(value); });
   if (values.empty()) return 0;
-  const auto rank = values.begin() +
-                    static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  const auto rank =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), rank, values.end());
   return *rank;
 }

@@ -1,9 +1,8 @@
 #pragma once
 
+#include <nanogui/widget.h>
 #include <string>
 #include <vector>
-
-#include <nanogui/widget.h>
 
 #include "traverse/render/colour.hpp"
 

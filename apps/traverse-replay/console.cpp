@@ -60,13 +60,14 @@ std::string Console::play_word(const std::string& name, const std::string& argum
     return control([&](Controls& c) { c.step(static_cast<std::ptrdiff_t>(*frames)); });
   }
   if (name == "seek") {
-    return player_.seek(argument) ? ""
-                                  : expected("a frame (120), a time (12.5s, 1:02) or a stamp",
-                                             argument);
+    return player_.seek(argument)
+               ? ""
+               : expected("a frame (120), a time (12.5s, 1:02) or a stamp", argument);
   }
   if (name == "speed") return set_speed(argument);
   if (name == "loop") {
-    return control([&](Controls& c) { c.set_loop(argument == "toggle" ? !c.loop() : argument == "on"); });
+    return control(
+        [&](Controls& c) { c.set_loop(argument == "toggle" ? !c.loop() : argument == "on"); });
   }
   if (name == "range") return set_range(argument);
   known = false;
@@ -122,7 +123,8 @@ std::string Console::view_word(const std::string& name, const std::string& argum
     return "";
   }
   if (name == "screenshot") {
-    screenshot_ = argument.empty() ? output_folder_ / file_name(".png") : std::filesystem::path(argument);
+    screenshot_ =
+        argument.empty() ? output_folder_ / file_name(".png") : std::filesystem::path(argument);
     return "";
   }
   if (name == "quit") {
@@ -167,7 +169,8 @@ std::string Console::estimator_word(const std::string& name, const std::string& 
     return "";
   }
   if (name == "save") {
-    player_.save(argument.empty() ? output_folder_ / file_name("") : std::filesystem::path(argument));
+    player_.save(argument.empty() ? output_folder_ / file_name("")
+                                  : std::filesystem::path(argument));
     return "";
   }
   known = false;

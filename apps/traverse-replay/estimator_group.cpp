@@ -1,8 +1,6 @@
 #include "estimator_group.hpp"
 
 #include <algorithm>
-
-#include <fmt/format.h>
 #include <nanogui/button.h>
 #include <nanogui/combobox.h>
 #include <nanogui/label.h>
@@ -10,6 +8,8 @@
 #include <nanogui/popup.h>
 #include <nanogui/screen.h>
 #include <nanogui/textbox.h>
+
+#include <fmt/format.h>
 
 namespace traverse::app {
 
@@ -94,8 +94,7 @@ void EstimatorGroup::choose_setting(std::size_t index) {
 
 void EstimatorGroup::refresh() {
   const replay::PlayerStatus status = console_.player().status();
-  present_->setCaption(
-      fmt::format("{}, {} checkpoints", status.pipeline, status.checkpoints));
+  present_->setCaption(fmt::format("{}, {} checkpoints", status.pipeline, status.checkpoints));
   if (preset_ == nullptr) return;
   for (std::size_t i = 0; i < presets_.size(); ++i) {
     if (presets_[i].name == console_.request().name &&

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <string>
-
 #include <nanogui/widget.h>
+#include <string>
 
 namespace nanogui {
 class Button;

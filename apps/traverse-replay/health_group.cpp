@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-
-#include <fmt/format.h>
 #include <nanogui/label.h>
 #include <nanogui/layout.h>
 #include <nanogui/screen.h>
+
+#include <fmt/format.h>
 
 namespace traverse::app {
 
@@ -15,9 +15,9 @@ namespace {
 
 /// Of the known estimators' columns those that tell most; of others the first ones are shown.
 constexpr std::array<const char*, 9> kTelling{
-    "registered",   "line_matches",         "plane_matches",
-    "residual_rms_m", "inlier_share",       "degenerate_directions",
-    "eigenvalue_1", "map_points",           "speed_mps"};
+    "registered",     "line_matches", "plane_matches",
+    "residual_rms_m", "inlier_share", "degenerate_directions",
+    "eigenvalue_1",   "map_points",   "speed_mps"};
 constexpr std::size_t kMostRows = 9;
 
 std::string number_text(double value) {

@@ -1,9 +1,8 @@
 #include "help_overlay.hpp"
 
 #include <array>
-#include <utility>
-
 #include <nanovg.h>
+#include <utility>
 
 #include "traverse/render/theme.hpp"
 

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
-
 #include <nanogui/opengl.h>
+#include <string>
 
 #include "console.hpp"
 

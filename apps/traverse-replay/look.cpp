@@ -1,7 +1,6 @@
 #include "look.hpp"
 
 #include <cmath>
-
 #include <nanovg.h>
 
 #include "traverse/render/palette.hpp"

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <mrpt/img/TColor.h>
 #include <nanogui/theme.h>
+
+#include <mrpt/img/TColor.h>
 
 #include "traverse/render/colour.hpp"
 

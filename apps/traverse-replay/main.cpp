@@ -1,11 +1,11 @@
 #include <cstdio>
 #include <exception>
+#include <nanogui/opengl.h>
 #include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nanogui/opengl.h>
 
 #include "traverse/replay/script.hpp"
 
@@ -39,11 +39,11 @@ void print_script_help() {
 
 void print_report(const RedrawReport& report) {
   if (report.seconds > 0) {
-    fmt::print("redraws while playing: {} in {:.1f} s ({:.1f} a second), at most {} points, the "
-               "window's loop never took longer than {:.0f} ms\n",
-               report.redraws, report.seconds,
-               static_cast<double>(report.redraws) / report.seconds, report.most_points,
-               1000 * report.longest_s);
+    fmt::print(
+        "redraws while playing: {} in {:.1f} s ({:.1f} a second), at most {} points, the "
+        "window's loop never took longer than {:.0f} ms\n",
+        report.redraws, report.seconds, static_cast<double>(report.redraws) / report.seconds,
+        report.most_points, 1000 * report.longest_s);
   }
   if (report.gl_errors > 0) fmt::print(stderr, "OpenGL errors: {}\n", report.gl_errors);
 }
@@ -107,8 +107,9 @@ int replay_file(const OpenRequest& request) {
     return kFailure;
   }
   if (glfwInit() == GLFW_FALSE) {
-    fmt::print(stderr, "traverse-replay: no display to open a window on; under "
-                       "`xvfb-run traverse-replay ...` there is one\n");
+    fmt::print(stderr,
+               "traverse-replay: no display to open a window on; under "
+               "`xvfb-run traverse-replay ...` there is one\n");
     return kFailure;
   }
   return run_window(request, *player,

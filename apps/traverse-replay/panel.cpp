@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-
 #include <nanogui/layout.h>
 
 #include "traverse/render/palette.hpp"
@@ -30,8 +29,8 @@ Panel::Panel(nanogui::Widget* parent, Console& console) : WindowFrame(parent), c
   estimator_ = new EstimatorGroup(this, console);
 }
 
-void Panel::refresh(const std::string& legend) {
-  view_->refresh(legend);
+void Panel::refresh(const std::string& legend, const std::vector<render::Colour>& samples) {
+  view_->refresh(legend, samples);
   health_->refresh();
   estimator_->refresh();
   refresh_charts();

@@ -17,7 +17,7 @@ class Panel : public WindowFrame {
   Panel(nanogui::Widget* parent, Console& console);
 
   /// At most ten times a second, so that numbers can be read.
-  void refresh(const std::string& legend);
+  void refresh(const std::string& legend, const std::vector<render::Colour>& samples);
 
  private:
   void refresh_charts();

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nanogui/opengl.h>
 #include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
-#include <nanogui/opengl.h>
 
 #include "traverse/render/image.hpp"
 
@@ -64,7 +64,7 @@ ReplayWindow::ReplayWindow(Console& console, const std::string& title, int width
   transport_ = new TransportBar(this, console);
   help_ = new HelpOverlay(this);
   performLayout();
-  panel_->refresh("");
+  panel_->refresh("", {});
   transport_->refresh("");
   arrange();
 }
@@ -136,12 +136,12 @@ void ReplayWindow::drawAll() {
 
 void ReplayWindow::refresh_texts() {
   last_texts_ = Clock::now();
-  panel_->refresh(scene_.legend());
-  transport_->refresh(fmt::format("{:.0f} thousand points drawn of a map of {:.0f} thousand, "
-                                  "{:.0f} ms a redraw",
-                                  static_cast<double>(scene_.points_drawn()) / 1000,
-                                  static_cast<double>(scene_.map_points()) / 1000,
-                                  1000 * redraw_s_));
+  panel_->refresh(scene_.legend(), scene_.legend_samples());
+  transport_->refresh(
+      fmt::format("{:.0f} thousand points drawn of a map of {:.0f} thousand, "
+                  "{:.0f} ms a redraw",
+                  static_cast<double>(scene_.points_drawn()) / 1000,
+                  static_cast<double>(scene_.map_points()) / 1000, 1000 * redraw_s_));
 }
 
 void ReplayWindow::move_camera() {
@@ -165,9 +165,9 @@ void ReplayWindow::move_camera() {
   } else if (is_switched) {
     view.setCameraProjective(true);
   } else if (mode == CameraMode::kFollow) {
-    view.setAzimuthDegrees(view.getAzimuthDegrees() +
-                           static_cast<float>(degrees(std::remainder(
-                               heading - heading_, 2 * std::numbers::pi))));
+    view.setAzimuthDegrees(
+        view.getAzimuthDegrees() +
+        static_cast<float>(degrees(std::remainder(heading - heading_, 2 * std::numbers::pi))));
   }
   if (mode != CameraMode::kFree || is_switched) {
     const Eigen::Vector3f p = T_map_body.translation.cast<float>();
@@ -225,6 +225,10 @@ bool ReplayWindow::resizeEvent(const nanogui::Vector2i& new_size) {
 bool ReplayWindow::keyboardEvent(int key, int scancode, int action, int modifiers) {
   last_event_ = Clock::now();
   if (CDisplayWindowGUI::keyboardEvent(key, scancode, action, modifiers)) return true;
+  if (key == GLFW_KEY_G && action == GLFW_RELEASE) {  // pressed, the box would get the letter too
+    transport_->ask_where_to_go();
+    return true;
+  }
   if (action == GLFW_RELEASE) return false;
   return press_key(key, modifiers, console_);
 }

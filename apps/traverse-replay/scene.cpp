@@ -37,7 +37,7 @@ constexpr float kMatchHalfLength = 0.4F;  // of the line drawn for a matched lin
 constexpr float kRibbon = 0.3F;           // width of a path, metres
 constexpr Colour kEstimateColour = render::palette::kSkyBlue;
 constexpr Colour kBeyondColour = Colour::hex(0x2F5168);  // the same, receding
-constexpr double kGridCell = 10;          // metres
+constexpr double kGridCell = 10;                         // metres
 constexpr double kGridHalf = 100;
 constexpr double kMapDepth = 12;  // of the heights that the map's colours span, metres
 
@@ -64,8 +64,7 @@ void append_ribbon(mrpt::opengl::CSetOfTriangles& ribbon, const Eigen::Vector3f&
                    const Eigen::Vector3f& b, float width, Colour colour) {
   const Eigen::Vector3f along = b - a;
   if (along.head<2>().norm() < 1e-4F) return;
-  const Eigen::Vector3f side =
-      Eigen::Vector3f(-along.y(), along.x(), 0).normalized() * (width / 2);
+  const Eigen::Vector3f side = Eigen::Vector3f(-along.y(), along.x(), 0).normalized() * (width / 2);
   const auto triangle = [&](const Eigen::Vector3f& p, const Eigen::Vector3f& q,
                             const Eigen::Vector3f& r) {
     mrpt::opengl::TTriangle t(to_mrpt(p), to_mrpt(q), to_mrpt(r));
@@ -91,9 +90,8 @@ struct Scene::Objects {
   mrpt::opengl::CSetOfTriangles::Ptr reference = mrpt::opengl::CSetOfTriangles::Create();
   mrpt::opengl::CSetOfObjects::Ptr vehicle = mrpt::opengl::stock_objects::CornerXYZ(2.0F);
   mrpt::opengl::CGridPlaneXY::Ptr grid = mrpt::opengl::CGridPlaneXY::Create(
-      static_cast<float>(-kGridHalf), static_cast<float>(kGridHalf),
-      static_cast<float>(-kGridHalf), static_cast<float>(kGridHalf), 0.0F,
-      static_cast<float>(kGridCell), 1.0F);
+      static_cast<float>(-kGridHalf), static_cast<float>(kGridHalf), static_cast<float>(-kGridHalf),
+      static_cast<float>(kGridHalf), 0.0F, static_cast<float>(kGridCell), 1.0F);
   std::optional<double> ground_z;
 };
 
@@ -119,10 +117,10 @@ Scene::Scene() : objects_(std::make_unique<Objects>()), map_budget_(kMostMapPoin
   for (const mrpt::opengl::CRenderizable::Ptr& object :
        {mrpt::opengl::CRenderizable::Ptr(o.grid), mrpt::opengl::CRenderizable::Ptr(o.map),
         mrpt::opengl::CRenderizable::Ptr(o.local_map), mrpt::opengl::CRenderizable::Ptr(o.scan),
-        mrpt::opengl::CRenderizable::Ptr(o.matches), mrpt::opengl::CRenderizable::Ptr(o.match_lines),
+        mrpt::opengl::CRenderizable::Ptr(o.matches),
+        mrpt::opengl::CRenderizable::Ptr(o.match_lines),
         mrpt::opengl::CRenderizable::Ptr(o.reference), mrpt::opengl::CRenderizable::Ptr(o.estimate),
-        mrpt::opengl::CRenderizable::Ptr(o.beyond),
-        mrpt::opengl::CRenderizable::Ptr(o.vehicle)}) {
+        mrpt::opengl::CRenderizable::Ptr(o.beyond), mrpt::opengl::CRenderizable::Ptr(o.vehicle)}) {
     o.scene->insert(object);
   }
 }
@@ -153,8 +151,8 @@ bool Scene::update(const replay::Player& player, const ViewSettings& settings) {
   }
   const auto shown = player.shown();
   const bool is_new = shown != shown_;
-  const bool is_restyled = !settings_ || settings_->colour != settings.colour ||
-                           settings_->layers != settings.layers;
+  const bool is_restyled =
+      !settings_ || settings_->colour != settings.colour || settings_->layers != settings.layers;
   if (!shown || !(is_new || is_restyled || map_is_due_)) return is_other;
   shown_ = shown;
   settings_ = settings;
@@ -189,6 +187,7 @@ bool Scene::update(const replay::Player& player, const ViewSettings& settings) {
 void Scene::show_scan(const replay::Shown& shown, const ViewSettings& settings) {
   replay::ScanColours coloured = replay::colours_of(shown.scan, settings.colour);
   legend_ = std::move(coloured.legend);
+  samples_ = std::move(coloured.samples);
   const auto& all = shown.scan.points_body;
   const std::size_t stride = stride_for(all.size(), kMostScanPoints);
   std::vector<TPoint3Df> points;

@@ -30,6 +30,7 @@ class Scene {
 
   /// What the colours of the scan mean.
   const std::string& legend() const { return legend_; }
+  const std::vector<render::Colour>& legend_samples() const { return samples_; }
   std::size_t points_drawn() const { return map_drawn_ + scan_drawn_; }
   std::size_t map_points() const { return map_points_; }
 
@@ -49,6 +50,7 @@ class Scene {
 
   std::unique_ptr<Objects> objects_;
   std::string legend_;
+  std::vector<render::Colour> samples_;
   std::shared_ptr<const replay::Shown> shown_;
   std::optional<ViewSettings> settings_;
   unsigned generation_ = 0;

@@ -21,7 +21,9 @@ void ScenePoints::assign(std::vector<mrpt::math::TPoint3Df> points,
 
 // A scene is never saved, but MRPT asks of all that is in one that it could be.
 uint8_t ScenePoints::serializeGetVersion() const { return 0; }
-void ScenePoints::serializeTo(mrpt::serialization::CArchive& out) const { writeToStreamRender(out); }
+void ScenePoints::serializeTo(mrpt::serialization::CArchive& out) const {
+  writeToStreamRender(out);
+}
 void ScenePoints::serializeFrom(mrpt::serialization::CArchive& in, uint8_t /*version*/) {
   readFromStreamRender(in);
 }

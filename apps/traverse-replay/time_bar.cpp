@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-
 #include <nanovg.h>
 
 #include "traverse/render/colour_map.hpp"
@@ -32,8 +31,9 @@ void fill_rect(NVGcontext* context, float x0, float x1, float y, float height, N
 
 TimeBar::TimeBar(nanogui::Widget* parent, Console& console)
     : nanogui::Widget(parent), console_(console) {
-  setTooltip("Click or drag to seek. Colours: error of the frames estimated so far (dark small, "
-             "yellow large). Orange marks: skipped records. Red: frames not registered");
+  setTooltip(
+      "Click or drag to seek. Colours: error of the frames estimated so far (dark small, "
+      "yellow large). Orange marks: skipped records. Red: frames not registered");
 }
 
 void TimeBar::refresh() {
@@ -62,7 +62,8 @@ float TimeBar::x_of(double frame) const {
 }
 
 void TimeBar::seek_to(int x) {
-  const double share = static_cast<double>(x - mPos.x() - kMargin) / std::max(1, mSize.x() - 2 * kMargin);
+  const double share =
+      static_cast<double>(x - mPos.x() - kMargin) / std::max(1, mSize.x() - 2 * kMargin);
   const double last = static_cast<double>(std::max<std::size_t>(status_.frames, 1) - 1);
   const auto frame = static_cast<std::size_t>(std::lround(std::clamp(share, 0.0, 1.0) * last));
   console_.player().control([&](replay::Controls& controls) { controls.seek(frame); });

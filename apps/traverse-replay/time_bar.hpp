@@ -1,8 +1,7 @@
 #pragma once
 
-#include <vector>
-
 #include <nanogui/widget.h>
+#include <vector>
 
 #include "console.hpp"
 
@@ -31,7 +30,7 @@ class TimeBar : public nanogui::Widget {
   Console& console_;
   replay::PlayerStatus status_;
   std::vector<replay::FrameIndex::Skipped> skipped_;
-  std::vector<double> errors_;      // by frame from the origin; -1 without reference
+  std::vector<double> errors_;  // by frame from the origin; -1 without reference
   std::vector<bool> registered_;
   unsigned generation_ = 0;
 };

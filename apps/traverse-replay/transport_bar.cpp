@@ -1,11 +1,12 @@
 #include "transport_bar.hpp"
 
-#include <fmt/format.h>
 #include <nanogui/button.h>
 #include <nanogui/entypo.h>
 #include <nanogui/label.h>
 #include <nanogui/layout.h>
 #include <nanogui/textbox.h>
+
+#include <fmt/format.h>
 
 namespace traverse::app {
 
@@ -44,9 +45,7 @@ TransportBar::TransportBar(nanogui::Widget* parent, Console& console)
   add_button(ENTYPO_ICON_PLUS, "Twice the speed []]", "faster");
   unlimited_ = add_button(ENTYPO_ICON_FLASH, "As fast as the estimator can [M]", "");
   unlimited_->setFlags(nanogui::Button::ToggleButton);
-  unlimited_->setChangeCallback([this](bool on) {
-    console_.execute("speed", on ? "max" : "1");
-  });
+  unlimited_->setChangeCallback([this](bool on) { console_.execute("speed", on ? "max" : "1"); });
   loop_ = add_button(ENTYPO_ICON_LOOP, "Begin again at the end [L]", "");
   loop_->setFlags(nanogui::Button::ToggleButton);
   loop_->setChangeCallback([this](bool on) { console_.execute("loop", on ? "on" : "off"); });
@@ -72,8 +71,8 @@ TransportBar::TransportBar(nanogui::Widget* parent, Console& console)
   message_->setFontSize(13);
 }
 
-nanogui::Button* TransportBar::add_button(int icon, const std::string& tip,
-                                          const std::string& word, const std::string& argument) {
+nanogui::Button* TransportBar::add_button(int icon, const std::string& tip, const std::string& word,
+                                          const std::string& argument) {
   auto* button = new nanogui::Button(buttons_, "", icon);
   button->setFixedSize({kButton, kButton});
   button->setTooltip(tip);
@@ -83,6 +82,8 @@ nanogui::Button* TransportBar::add_button(int icon, const std::string& tip,
   return button;
 }
 
+void TransportBar::ask_where_to_go() { go_to_->requestFocus(); }
+
 void TransportBar::refresh(const std::string& drawn) {
   time_bar_->refresh();
   const replay::PlayerStatus status = console_.player().status();
@@ -91,16 +92,16 @@ void TransportBar::refresh(const std::string& drawn) {
   loop_->setPushed(status.loop);
   unlimited_->setPushed(status.unlimited);
   speed_->setCaption(status.unlimited ? "max" : fmt::format("{:g}x", status.speed));
-  const std::string last =
-      status.frames == 0 ? "?" : fmt::format("{}{}", status.frames - 1,
-                                             status.frames_complete ? "" : "+");
-  std::string where = shown ? fmt::format("  {}   frame {} of {}", clock_text(shown->seconds),
-                                          shown->frame, last)
-                            : "  no frame yet";
+  const std::string last = status.frames == 0 ? "?"
+                                              : fmt::format("{}{}", status.frames - 1,
+                                                            status.frames_complete ? "" : "+");
+  std::string where =
+      shown ? fmt::format("  {}   frame {} of {}", clock_text(shown->seconds), shown->frame, last)
+            : "  no frame yet";
   if (status.busy && !status.playing) where += fmt::format(", at {} ...", status.working_on);
   where_->setCaption(where);
 
-  std::string message = !status.error.empty() ? "Stopped: " + status.error
+  std::string message = !status.error.empty()         ? "Stopped: " + status.error
                         : !console_.message().empty() ? console_.message()
                                                       : status.message;
   if (!status.frames_complete && status.error.empty()) {

@@ -24,6 +24,9 @@ class TransportBar : public WindowFrame {
   /// At most ten times a second. \param drawn what the last redraws took, in words
   void refresh(const std::string& drawn);
 
+  /// Lets the user type where to go.
+  void ask_where_to_go();
+
  private:
   nanogui::Button* add_button(int icon, const std::string& tip, const std::string& word,
                               const std::string& argument = "");

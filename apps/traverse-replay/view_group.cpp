@@ -3,7 +3,6 @@
 #include <nanogui/button.h>
 #include <nanogui/checkbox.h>
 #include <nanogui/combobox.h>
-#include <nanogui/label.h>
 #include <nanogui/layout.h>
 #include <nanogui/popup.h>
 
@@ -39,8 +38,7 @@ ViewGroup::ViewGroup(nanogui::Widget* parent, Console& console)
     cameras_[i]->setFlags(nanogui::Button::RadioButton);
     cameras_[i]->setFixedWidth(86);
     cameras_[i]->setTooltip(kCameraTips[i]);
-    cameras_[i]->setCallback(
-        [this, i] { console_.execute("view", std::string(kCameraNames[i])); });
+    cameras_[i]->setCallback([this, i] { console_.execute("view", std::string(kCameraNames[i])); });
   }
 
   std::vector<std::string> names;
@@ -51,12 +49,10 @@ ViewGroup::ViewGroup(nanogui::Widget* parent, Console& console)
   colour_->popup()->setSide(nanogui::Popup::Side::Left);
   colour_->setTooltip("What the colours of the scan mean [C for the next]");
   colour_->setCallback([this](int index) {
-    console_.execute("colour", std::string(replay::kScanColourNames.at(
-                                   static_cast<std::size_t>(index)).first));
+    console_.execute(
+        "colour", std::string(replay::kScanColourNames.at(static_cast<std::size_t>(index)).first));
   });
-  legend_ = new nanogui::Label(content(), " ");
-  legend_->setFixedSize({270, 32});
-  legend_->setFontSize(13);
+  legend_ = new Legend(content());
 
   auto* layers = new nanogui::Widget(content());
   layers->setLayout(new nanogui::GridLayout(Orientation::Horizontal, 2, Alignment::Minimum, 0, 2));
@@ -72,7 +68,7 @@ ViewGroup::ViewGroup(nanogui::Widget* parent, Console& console)
   }
 }
 
-void ViewGroup::refresh(const std::string& legend) {
+void ViewGroup::refresh(const std::string& legend, const std::vector<render::Colour>& samples) {
   const ViewSettings& view = console_.view();
   for (std::size_t i = 0; i < kCameraNames.size(); ++i) {
     cameras_[i]->setPushed(static_cast<std::size_t>(view.camera) == i);
@@ -84,7 +80,7 @@ void ViewGroup::refresh(const std::string& legend) {
     }
   }
   for (std::size_t i = 0; i < kLayerNames.size(); ++i) layers_[i]->setChecked(view.layers[i]);
-  legend_->setCaption(legend.empty() ? " " : legend);
+  legend_->set(legend, samples);
 }
 
 }  // namespace traverse::app

@@ -5,12 +5,12 @@
 
 #include "console.hpp"
 #include "folding_group.hpp"
+#include "legend.hpp"
 
 namespace nanogui {
 class Button;
 class CheckBox;
 class ComboBox;
-class Label;
 }  // namespace nanogui
 
 namespace traverse::app {
@@ -20,12 +20,12 @@ class ViewGroup : public FoldingGroup {
  public:
   ViewGroup(nanogui::Widget* parent, Console& console);
 
-  void refresh(const std::string& legend);
+  void refresh(const std::string& legend, const std::vector<render::Colour>& samples);
 
  private:
   Console& console_;
   nanogui::ComboBox* colour_;
-  nanogui::Label* legend_;
+  Legend* legend_;
   std::array<nanogui::Button*, kCameraNames.size()> cameras_{};
   std::array<nanogui::CheckBox*, kLayerNames.size()> layers_{};
 };

@@ -95,17 +95,16 @@ TEST_F(PlayerTest, RestartsHereWithOtherSettings) {
   EXPECT_TRUE(eventually([](const PlayerStatus& s) { return s.generation == 2 && s.settled; }));
   EXPECT_EQ(player_->past(0).front().number, 6U);
   const auto settings = player_->settings();
-  const auto radius =
-      std::find_if(settings.begin(), settings.end(),
-                   [](const auto& entry) { return entry.setting.path == "map.radius_m"; });
+  const auto radius = std::find_if(settings.begin(), settings.end(), [](const auto& entry) {
+    return entry.setting.path == "map.radius_m";
+  });
   ASSERT_NE(radius, settings.end());
   EXPECT_EQ(std::get<double>(radius->setting.value), 40);
 
   request.assignments = {"map.radius_m=wide"};
   player_->restart(request, 6);
-  EXPECT_TRUE(eventually([](const PlayerStatus& s) {
-    return s.message.find("map.radius_m") != std::string::npos;
-  }));
+  EXPECT_TRUE(eventually(
+      [](const PlayerStatus& s) { return s.message.find("map.radius_m") != std::string::npos; }));
   EXPECT_EQ(player_->status().error, "");  // the estimator there was goes on
 }
 
@@ -117,8 +116,8 @@ TEST_F(PlayerTest, SavesWhatIsKnownUpToTheFrameOnShow) {
   ASSERT_TRUE(shows(4));
   player_->save(folder_ / "saved");
   EXPECT_TRUE(eventually([](const PlayerStatus& s) { return s.message.starts_with("saved"); }));
-  const auto saved = dataset::read_trajectory(folder_ / "saved/trajectory.tum",
-                                              dataset::TrajectoryFormat::kTum);
+  const auto saved =
+      dataset::read_trajectory(folder_ / "saved/trajectory.tum", dataset::TrajectoryFormat::kTum);
   EXPECT_EQ(saved.size(), 5U);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "saved/map.ply"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "saved/reference.tum"));

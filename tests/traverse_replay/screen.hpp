@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
-#include <thread>
 #include <sys/wait.h>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -43,10 +43,12 @@ class Screen {
  public:
   explicit Screen(const std::filesystem::path& folder) {
     const std::string file = (folder / "display").string();
-    pid_ = output_of(fmt::format("Xvfb -displayfd 3 -screen 0 1100x800x24 +extension GLX 3> '{}' "
-                                 "> /dev/null 2>&1 & echo $!",
-                                 file));
-    eventually([&] { return std::filesystem::exists(file) && !files::read_text(file).empty(); }, 30);
+    pid_ =
+        output_of(fmt::format("Xvfb -displayfd 3 -screen 0 1100x800x24 +extension GLX 3> '{}' "
+                              "> /dev/null 2>&1 & echo $!",
+                              file));
+    eventually([&] { return std::filesystem::exists(file) && !files::read_text(file).empty(); },
+               30);
     display_ = ":" + output_of("cat '" + file + "'");
   }
   ~Screen() { std::system(("kill " + pid_).c_str()); }
@@ -95,9 +97,10 @@ class WindowedProgram {
   }
   /// Slowly: the window looks at the mouse once a redraw.
   void click(int x, int y) {
-    screen_.run(fmt::format("xdotool mousemove {} {} sleep 0.3 mousedown 1 sleep 0.3 mouseup 1 "
-                            "sleep 0.3",
-                            x, y));
+    screen_.run(
+        fmt::format("xdotool mousemove {} {} sleep 0.3 mousedown 1 sleep 0.3 mouseup 1 "
+                    "sleep 0.3",
+                    x, y));
   }
 
   bool has_ended() const { return std::filesystem::exists(status_file_); }

@@ -15,8 +15,8 @@ namespace traverse {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::HasSubstr;
 using testing::eventually;
+using ::testing::HasSubstr;
 using testing::WindowedProgram;
 
 constexpr int kWidth = 1000;
@@ -108,7 +108,9 @@ TEST_F(WindowTest, ObeysKeysAndMouse) {
   program.click((kWidth - 24) / 2 + 12, kHeight - 88 + 19);  // the middle of the time line
   EXPECT_TRUE(eventually([&] { return std::abs(frame(program) - 20) <= 1; })) << "seek by mouse";
 
-  program.press("g");  // not a seek by itself
+  program.press("g");
+  program.press("1 7 Return");
+  EXPECT_TRUE(shows(program, 17)) << "typed";
   const int origin = frame(program);
   program.press("r");  // the pipeline begins again at this frame
   program.press("Home");

@@ -240,7 +240,8 @@ void RawlogConverter::add_actions(const mrpt::obs::CActionCollection& actions,
 
 void RawlogConverter::add_up(const mrpt::obs::CActionRobotMovement2D& action) {
   const Pose3 T_before_after = to_pose(mrpt::poses::CPose3D(action.rawOdometryIncrementReading));
-  state_.odometry.T_odom_body = state_.odometry.T_odom_body.value_or(Pose3::identity()) * T_before_after;
+  state_.odometry.T_odom_body =
+      state_.odometry.T_odom_body.value_or(Pose3::identity()) * T_before_after;
   if (is_set(action.hasEncodersInfo)) {
     WheelOdometry::Ticks ticks = state_.odometry.ticks.value_or(WheelOdometry::Ticks());
     ticks.left += action.encoderLeftTicks;
@@ -256,7 +257,8 @@ void RawlogConverter::add_up(const mrpt::obs::CActionRobotMovement2D& action) {
 
 void RawlogConverter::flush_odometry(Stamp stamp, ConvertedRecord& result) {
   state_.odometry.stamp = stamp;
-  state_.odometry.sensor = sensors_.label_of(SensorKind::kWheels, kActionOdometry, Pose3::identity());
+  state_.odometry.sensor =
+      sensors_.label_of(SensorKind::kWheels, kActionOdometry, Pose3::identity());
   result.measurements.emplace_back(state_.odometry);
   state_.odometry_waits = false;
 }

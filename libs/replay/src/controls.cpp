@@ -91,9 +91,9 @@ void Controls::pass(double seconds, std::size_t shown, const Timeline& timeline)
   if (wanted_ < first()) return home();
   credit_s_ += seconds * speed_;
   while (wanted_ < end && wanted_ < shown + (unlimited_ ? 1 : kMostAhead)) {
-    const double interval = std::clamp(
-        geometry::seconds_between(timeline.stamp(wanted_), timeline.stamp(wanted_ + 1)), 0.0,
-        kLongestWait);
+    const double interval =
+        std::clamp(geometry::seconds_between(timeline.stamp(wanted_), timeline.stamp(wanted_ + 1)),
+                   0.0, kLongestWait);
     if (!unlimited_ && credit_s_ < interval) return;
     credit_s_ -= interval;
     ++wanted_;

@@ -101,8 +101,8 @@ std::optional<FrameIndex> load_index(const fs::path& file, const std::string& di
     FrameIndex index;
     for (const Json& stamp : json.at("frames")) index.frames.push_back({stamp.get<std::int64_t>()});
     for (const Json& entry : json.at("skipped")) {
-      index.skipped.push_back({entry.at("reason"), entry.at("count"),
-                               entry.at("first_behind_frames")});
+      index.skipped.push_back(
+          {entry.at("reason"), entry.at("count"), entry.at("first_behind_frames")});
     }
     return index;
   } catch (const Json::exception&) {

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-
 #include <tsl/robin_map.h>
 #include <tsl/robin_set.h>
+#include <utility>
 
 #include "traverse/geometry/voxel.hpp"
 
@@ -13,8 +12,8 @@ namespace traverse::replay {
 
 namespace {
 
-constexpr double kBlock = 8;         // edge of a block, metres
-constexpr float kNearest = 8;        // within this distance of the focus all points are alike, metres
+constexpr double kBlock = 8;   // edge of a block, metres
+constexpr float kNearest = 8;  // within this distance of the focus all points are alike, metres
 constexpr double kLeastScale = 1e-6;  // of the share of points that is drawn
 constexpr double kMostScale = 1e6;
 constexpr int kBisections = 30;

@@ -22,7 +22,7 @@ constexpr auto kTick = std::chrono::milliseconds(4);  // of the playing clock
 constexpr auto kShowEvery = std::chrono::milliseconds(50);
 constexpr double kLongestReferenceGap = 1;  // seconds
 constexpr int kNiceness = 5;
-constexpr double kVoxel = 0.25;             // of the drawn map, metres
+constexpr double kVoxel = 0.25;  // of the drawn map, metres
 constexpr double kPlanarVoxel = 0.05;
 
 /// The window goes before the estimator where both want the same core. (On Linux this is of the
@@ -37,9 +37,7 @@ MapHistory empty_map(const Recording& recording, const PlayerOptions& options) {
 }  // namespace
 
 Player::Player(Recording recording, const PlayerOptions& options)
-    : recording_(std::move(recording)),
-      options_(options),
-      map_(empty_map(recording_, options_)) {
+    : recording_(std::move(recording)), options_(options), map_(empty_map(recording_, options_)) {
   begin(options_.preset, recording_.first_frame());
   timeline_.limit(recording_.most_frames());
   estimating_ = std::thread([this] { estimate(); });
@@ -80,8 +78,8 @@ PlayerStatus Player::status() const {
   status.frames = timeline_.size();
   status.frames_complete = timeline_.complete();
   if (shown_) status.shown = shown_->frame;
-  status.settled = jobs_.empty() && !has_job_ && shown_ &&
-                   controls_.is_settled(shown_->frame, timeline_);
+  status.settled =
+      jobs_.empty() && !has_job_ && shown_ && controls_.is_settled(shown_->frame, timeline_);
   return status;
 }
 
@@ -268,9 +266,9 @@ void Player::remember(const SessionFrame& frame) {
     if (is_new) {
       PastFrame past{frame.number, frame.pose, std::nullopt};
       const auto& reference = recording_.reference();
-      const auto truth =
-          reference ? reference->T_map_body.at(frame.pose.stamp, kLongestReferenceGap)
-                    : std::nullopt;
+      const auto truth = reference
+                             ? reference->T_map_body.at(frame.pose.stamp, kLongestReferenceGap)
+                             : std::nullopt;
       if (truth && !T_map_reference_) {
         T_map_reference_ = frame.pose.T_map_body * truth->inverse();
       }
@@ -282,8 +280,7 @@ void Player::remember(const SessionFrame& frame) {
     }
   }
   if (!is_new) return;
-  const MapPoints points =
-      points_in_map(frame, session_->estimator(), recording_.info().rig);
+  const MapPoints points = points_in_map(frame, session_->estimator(), recording_.info().rig);
   const std::lock_guard lock(map_mutex_);
   map_.add_frame(points.points_map, points.intensity);
 }

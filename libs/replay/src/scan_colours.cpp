@@ -35,7 +35,7 @@ Span percentiles(std::vector<float> values) {
 }
 
 ScanColours grey(std::size_t count, std::string legend) {
-  return {std::vector<Colour>(count, render::dark_theme().other), std::move(legend)};
+  return {std::vector<Colour>(count, render::dark_theme().other), std::move(legend), {}};
 }
 
 ScanColours scaled(const std::vector<float>& values, std::size_t count, render::ColourMap map,
@@ -50,6 +50,7 @@ ScanColours scaled(const std::vector<float>& values, std::size_t count, render::
   }
   const double width = std::max(span.most - span.least, 1e-9);
   ScanColours result;
+  result.samples.assign(shades.begin(), shades.end());
   result.colours.reserve(count);
   for (const float value : values) {
     const double share = std::clamp((value - span.least) / width, 0.0, 1.0);
@@ -67,7 +68,8 @@ ScanColours by_class(const ShownScan& scan) {
       render::dark_theme().other, render::palette::kSharp, render::palette::kLessSharp,
       render::palette::kFlat, render::palette::kLessFlat};
   ScanColours result;
-  result.legend = "sharp, less sharp, flat, less flat, other";
+  result.legend = "other, sharp, less sharp, flat, less flat";
+  result.samples.assign(colours.begin(), colours.end());
   result.colours.reserve(count);
   for (const std::uint8_t c : scan.feature_class) {
     result.colours.push_back(colours.at(c < colours.size() ? c : 0));
@@ -112,9 +114,14 @@ ScanColours colours_of(const ShownScan& scan, ScanColour by) {
       return scaled(heights(scan), count, ColourMap::kViridis, "height", " m");
     case ScanColour::kIntensity:
       return scaled(scan.intensity, count, ColourMap::kCividis, "intensity", "");
-    case ScanColour::kResidual:
-      return grey(count, fmt::format("residual of matched points, -{0:g} .. {0:g} m",
-                                     kResidualScale));
+    case ScanColour::kResidual: {
+      ScanColours result =
+          grey(count, fmt::format("residual of matched points -{0:g} .. {0:g} m", kResidualScale));
+      for (double r = -kResidualScale; r <= kResidualScale; r += kResidualScale / 16) {
+        result.samples.push_back(residual_colour(r));
+      }
+      return result;
+    }
   }
   return grey(count, "");
 }

@@ -36,9 +36,8 @@ std::vector<ScriptCommand> read_script(const std::filesystem::path& file) {
                          files::in_quotes(command.name));
     }
     if (word->argument.empty() != command.argument.empty()) {
-      throw reader.error(word->argument.empty()
-                             ? command.name + " alone"
-                             : command.name + " " + std::string(word->argument),
+      throw reader.error(word->argument.empty() ? command.name + " alone"
+                                                : command.name + " " + std::string(word->argument),
                          files::in_quotes(text));
     }
     commands.push_back(std::move(command));

@@ -38,8 +38,8 @@ std::vector<Eigen::Vector3f> points_of(const sensors::PlanarScan& scan, const se
   std::vector<Eigen::Vector3f> points;
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const double range = scan.ranges_m[i];
-    const bool is_return = std::isfinite(range) && range > 0 &&
-                           (scan.max_range_m <= 0 || range < scan.max_range_m);
+    const bool is_return =
+        std::isfinite(range) && range > 0 && (scan.max_range_m <= 0 || range < scan.max_range_m);
     if (!is_return) continue;
     const double azimuth = scan.first_azimuth + static_cast<double>(i) * scan.azimuth_step;
     const Eigen::Vector3d p_sensor(range * std::cos(azimuth), range * std::sin(azimuth), 0);

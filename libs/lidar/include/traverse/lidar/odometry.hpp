@@ -51,8 +51,8 @@ class Odometry {
   virtual CorrectedScan used_scan(const sensors::LidarScan& scan, const geometry::Twist& velocity,
                                   bool with_classes) const = 0;
 
-  /// An independent copy: fed the same scans, both give the same bits. A copyable class makes one in
-  /// one line: `return std::make_unique<ThisClass>(*this);`
+  /// An independent copy: fed the same scans, both give the same bits. A copyable class makes one
+  /// in one line: `return std::make_unique<ThisClass>(*this);`
   virtual std::unique_ptr<Odometry> clone() const = 0;
 
   /// The points that the next scan will be registered on, map frame; empty if there is no such map.

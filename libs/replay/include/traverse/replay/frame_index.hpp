@@ -34,8 +34,8 @@ inline bool operator==(const FrameIndex::Skipped& a, const FrameIndex::Skipped& 
 
 /// What building an index tells while it works.
 struct IndexObserver {
-  std::function<void(geometry::Stamp)> frame;      ///< one more is known
-  std::function<void(double share)> progress;      ///< 0 to 1
+  std::function<void(geometry::Stamp)> frame;  ///< one more is known
+  std::function<void(double share)> progress;  ///< 0 to 1
   const std::atomic<bool>* stop = nullptr;
 };
 

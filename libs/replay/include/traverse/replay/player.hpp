@@ -59,8 +59,8 @@ struct PlayerStatus {
   double index_share = 0;  ///< of the recording that the index has been through
   std::size_t checkpoints = 0;
   std::string pipeline;
-  std::string error;    ///< why the estimator cannot go on; empty if all is well
-  std::string message;  ///< of the last thing that was done: "saved ..."
+  std::string error;        ///< why the estimator cannot go on; empty if all is well
+  std::string message;      ///< of the last thing that was done: "saved ..."
   unsigned generation = 0;  ///< grows when the estimator begins again: what was known is gone
 };
 

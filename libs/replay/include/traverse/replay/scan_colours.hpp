@@ -31,6 +31,8 @@ inline constexpr double kResidualScale = 0.1;
 struct ScanColours {
   std::vector<render::Colour> colours;  ///< one a point
   std::string legend;                   ///< what the colours mean, with the range and its unit
+  /// Samples of the colours in order: one for each word of the legend, or along its range.
+  std::vector<render::Colour> samples;
 };
 
 /// Colours for the points of a scan. Ranges end at the 2nd and 98th percentile. What the scan does
