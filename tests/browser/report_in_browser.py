@@ -240,7 +240,8 @@ def use_run(run):
 def test_simulated_street(folder):
     recording = str(pathlib.Path(folder, "street.rawlog"))
     quiet = {"check": True, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    subprocess.run([PROGRAM, "simulate", "street", "-o", recording, "--length", "60"], **quiet)
+    subprocess.run([PROGRAM, "simulate", "town_short", "--first", "60",
+                    "--duration", "6", "-o", recording], **quiet)
     run = str(pathlib.Path(folder, "run"))
     subprocess.run([PROGRAM, "run", recording, "-o", run, "--no-report"], **quiet)
     use_run(run)

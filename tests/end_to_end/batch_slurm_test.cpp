@@ -85,7 +85,7 @@ TEST_F(BatchOnSlurm, AnArrayGivesTheSameResultsAsThisMachine) {
 
 TEST_F(BatchOnSlurm, CancelledItCanBeGoneOnWith) {
   std::string plan = kPlan;
-  plan.replace(plan.find("length: 2"), 9, "length: 8");
+  plan.replace(plan.find("duration: 0.3"), 13, "duration: 0.9");
   ASSERT_EQ(batch(plan, "out", "--executor slurm --no-wait").status, 0);
   const auto finished = [&] {
     std::size_t count = 0;

@@ -102,7 +102,7 @@ TEST(BenchFactors, IsAPartOfARunAndOfItsReportWhenAskedFor) {
   ASSERT_EQ(result.status, 0) << result.messages;
   const json bench = read_json(folder / "run/factor_bench.json");
   EXPECT_EQ(bench["frame"], 4);
-  EXPECT_EQ(bench["recording"], "simulated street");
+  EXPECT_EQ(bench["recording"], "Short town drive (HDL-64E)");
   const json audit = read_json(folder / "run/jacobians.json");
   ASSERT_EQ(audit["factors"].size(), 2U) << "those that the run used";
   EXPECT_EQ(audit["factors"][0]["factor"], "line scalar");

@@ -66,6 +66,9 @@ class KnowingEstimator : public Estimator {
   std::string points_are() const override { return "as made"; }
   std::vector<Decision> decisions() const override { return {{"deskew", "off"}}; }
   std::vector<optimization::FactorUse> factors() const override { return uses; }
+  std::unique_ptr<Estimator> clone() const override {
+    return std::make_unique<KnowingEstimator>(*this);
+  }
 
   std::vector<optimization::FactorUse> uses;
   std::optional<geometry::Stamp> fail_at;

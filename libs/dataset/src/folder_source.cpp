@@ -15,6 +15,13 @@ namespace {
 using sensors::LidarScan;
 using sensors::Measurement;
 
+struct FolderBookmark : Bookmark {
+  std::size_t next_scan = 0;
+  std::size_t next_other = 0;
+  StampOrder order;
+  SkippedRecords skipped;
+};
+
 class FolderSource : public Source {
  public:
   explicit FolderSource(FolderRecording recording) : recording_(std::move(recording)) {}
@@ -41,6 +48,32 @@ class FolderSource : public Source {
   std::optional<double> share_read() const override {
     const std::size_t all = recording_.scans.size();
     return all == 0 ? 1.0 : static_cast<double>(next_scan_) / static_cast<double>(all);
+  }
+
+  std::shared_ptr<const Bookmark> bookmark() const override {
+    auto here = std::make_shared<FolderBookmark>();
+    here->next_scan = next_scan_;
+    here->next_other = next_other_;
+    here->order = order_;
+    here->skipped = skipped_;
+    return here;
+  }
+
+  void return_to(const Bookmark& bookmark) override {
+    const auto& there = dynamic_cast<const FolderBookmark&>(bookmark);
+    next_scan_ = there.next_scan;
+    next_other_ = there.next_other;
+    order_ = there.order;
+    skipped_ = there.skipped;
+  }
+
+  std::optional<std::vector<geometry::Stamp>> listed_scan_stamps() const override {
+    std::vector<geometry::Stamp> stamps;
+    for (const ScanFile& file : recording_.scans) {
+      const bool in_order = file.stamp && (stamps.empty() || stamps.back() < *file.stamp);
+      if (in_order) stamps.push_back(*file.stamp);
+    }
+    return stamps;
   }
 
  private:

@@ -105,6 +105,18 @@ void GzInput::check_count(const void* bytes, std::size_t count) {
   things_follow_ = number == 1 || number == 2 || number == 4;
 }
 
+void GzInput::go_to(std::uint64_t position) {
+  ::gzclearerr(file_.get());
+  fault_.clear();
+  at_end_ = false;
+  begin_ = end_ = 0;
+  position_ = position;
+  if (::gzseek(file_.get(), static_cast<z_off_t>(position), SEEK_SET) < 0) {
+    at_end_ = true;
+    fault_ = fault_of(file_.get());
+  }
+}
+
 std::size_t GzInput::Write(const void*, std::size_t) {
   throw std::logic_error("a file opened for reading is not written");
 }

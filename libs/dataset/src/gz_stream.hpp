@@ -28,7 +28,10 @@ class GzInput {
   std::string_view peek(std::size_t count);
 
   std::uint64_t position() const { return position_; }  ///< bytes taken, uncompressed
-  double share_read() const;                            ///< of the file on disk, 0 to 1
+  /// Goes on reading from there. Cheap in a file that is not compressed; in a compressed one all
+  /// that lies before is decompressed, on the way back from the beginning.
+  void go_to(std::uint64_t position);
+  double share_read() const;  ///< of the file on disk, 0 to 1
   /// What stopped a read: "the file is cut short", or what zlib says; empty as long as all is well.
   const std::string& fault() const { return fault_; }
 

@@ -155,7 +155,7 @@ void RawlogConverter::add_observation(mrpt::obs::CObservation& observation,
                                       const RawlogRecord& record, ConvertedRecord& result) {
   try {
     const auto stamp = to_stamp(observation.timestamp);
-    if (stamp && odometry_waits_) flush_odometry(*stamp, result);
+    if (stamp && state_.odometry_waits) flush_odometry(*stamp, result);
     if (!is_used(observation)) {
       throw UnusableObservation("class not used: " + class_of(observation));
     }
@@ -233,32 +233,34 @@ void RawlogConverter::add_actions(const mrpt::obs::CActionCollection& actions,
       continue;
     }
     add_up(*movement);
-    odometry_waits_ = true;
+    state_.odometry_waits = true;
     if (const auto stamp = to_stamp(movement->timestamp)) flush_odometry(*stamp, result);
   }
 }
 
 void RawlogConverter::add_up(const mrpt::obs::CActionRobotMovement2D& action) {
   const Pose3 T_before_after = to_pose(mrpt::poses::CPose3D(action.rawOdometryIncrementReading));
-  odometry_.T_odom_body = odometry_.T_odom_body.value_or(Pose3::identity()) * T_before_after;
+  state_.odometry.T_odom_body =
+      state_.odometry.T_odom_body.value_or(Pose3::identity()) * T_before_after;
   if (is_set(action.hasEncodersInfo)) {
-    WheelOdometry::Ticks ticks = odometry_.ticks.value_or(WheelOdometry::Ticks());
+    WheelOdometry::Ticks ticks = state_.odometry.ticks.value_or(WheelOdometry::Ticks());
     ticks.left += action.encoderLeftTicks;
     ticks.right += action.encoderRightTicks;
-    odometry_.ticks = ticks;
+    state_.odometry.ticks = ticks;
   }
-  odometry_.velocity.reset();
+  state_.odometry.velocity.reset();
   if (is_set(action.hasVelocities)) {
     const auto& v = action.velocityLocal;
-    odometry_.velocity = {v.vx, v.vy, v.omega};
+    state_.odometry.velocity = {v.vx, v.vy, v.omega};
   }
 }
 
 void RawlogConverter::flush_odometry(Stamp stamp, ConvertedRecord& result) {
-  odometry_.stamp = stamp;
-  odometry_.sensor = sensors_.label_of(SensorKind::kWheels, kActionOdometry, Pose3::identity());
-  result.measurements.emplace_back(odometry_);
-  odometry_waits_ = false;
+  state_.odometry.stamp = stamp;
+  state_.odometry.sensor =
+      sensors_.label_of(SensorKind::kWheels, kActionOdometry, Pose3::identity());
+  result.measurements.emplace_back(state_.odometry);
+  state_.odometry_waits = false;
 }
 
 }  // namespace traverse::dataset

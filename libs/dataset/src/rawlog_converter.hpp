@@ -37,6 +37,14 @@ class RawlogConverter {
 
   ConvertedRecord convert(const RawlogRecord& record);
 
+  /// What earlier records leave for later ones: the odometry summed up so far.
+  struct State {
+    sensors::WheelOdometry odometry;
+    bool odometry_waits = false;  ///< for the stamp of the sensory frame that follows
+  };
+  const State& state() const { return state_; }
+  void set_state(const State& state) { state_ = state; }
+
  private:
   void add_observation(mrpt::obs::CObservation& observation, const RawlogRecord& record,
                        ConvertedRecord& result);
@@ -49,8 +57,7 @@ class RawlogConverter {
 
   RawlogSensors& sensors_;
   std::string external_folder_;
-  sensors::WheelOdometry odometry_;  ///< summed up so far
-  bool odometry_waits_ = false;      ///< for the stamp of the sensory frame that follows
+  State state_;
 };
 
 }  // namespace traverse::dataset

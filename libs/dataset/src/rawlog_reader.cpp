@@ -69,6 +69,12 @@ std::nullopt_t RawlogReader::stop(const std::string& reason) {
   return std::nullopt;
 }
 
+void RawlogReader::return_to(const Position& position) {
+  stream_.go_to(position.byte);
+  records_ = position.records;
+  fault_ = position.fault;
+}
+
 std::optional<RawlogRecord> RawlogReader::next() {
   if (fault_) return std::nullopt;
   record_begin_ = stream_.position();

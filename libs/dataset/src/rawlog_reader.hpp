@@ -35,6 +35,15 @@ class RawlogReader {
   };
   const std::optional<Fault>& fault() const { return fault_; }
 
+  /// Between two records.
+  struct Position {
+    std::uint64_t byte = 0;  ///< uncompressed
+    std::size_t records = 0;
+    std::optional<Fault> fault;
+  };
+  Position position() const { return {stream_.position(), records_, fault_}; }
+  void return_to(const Position& position);
+
   std::uint64_t bytes_read() const { return stream_.position(); }
   std::size_t records_read() const { return records_; }
   double share_read() const { return stream_.share_read(); }

@@ -39,6 +39,15 @@ std::string external_folder_of(const fs::path& file) {
   return (file.parent_path() / (stem + "_Images")).string();
 }
 
+struct RawlogBookmark : Bookmark {
+  RawlogReader::Position position;
+  RawlogConverter::State converter;
+  ReorderWindow window;
+  StampOrder order;
+  SkippedRecords skipped;
+  bool at_end = false;
+};
+
 class RawlogSource : public Source {
  public:
   RawlogSource(const fs::path& file, const OpenOptions& options)
@@ -83,6 +92,27 @@ class RawlogSource : public Source {
     order_ = {};
     skipped_ = {};
     at_end_ = false;
+  }
+
+  std::shared_ptr<const Bookmark> bookmark() const override {
+    auto here = std::make_shared<RawlogBookmark>();
+    here->position = reader_->position();
+    here->converter = converter_->state();
+    here->window = window_;
+    here->order = order_;
+    here->skipped = skipped_;
+    here->at_end = at_end_;
+    return here;
+  }
+
+  void return_to(const Bookmark& bookmark) override {
+    const auto& there = dynamic_cast<const RawlogBookmark&>(bookmark);
+    reader_->return_to(there.position);
+    converter_->set_state(there.converter);
+    window_ = there.window;
+    order_ = there.order;
+    skipped_ = there.skipped;
+    at_end_ = there.at_end;
   }
 
  private:

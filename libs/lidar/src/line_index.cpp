@@ -77,10 +77,7 @@ struct LineIndex::Search {
 };
 
 LineIndex::LineIndex() : LineIndex(LinedPoints{}) {}
-LineIndex::LineIndex(LinedPoints points) : search_(std::make_unique<Search>(std::move(points))) {}
-LineIndex::LineIndex(LineIndex&&) noexcept = default;
-LineIndex& LineIndex::operator=(LineIndex&&) noexcept = default;
-LineIndex::~LineIndex() = default;
+LineIndex::LineIndex(LinedPoints points) : search_(std::make_shared<const Search>(std::move(points))) {}
 
 std::size_t LineIndex::size() const { return search_->points.size(); }
 

@@ -107,6 +107,8 @@ void LocalMap::follow(const Eigen::Vector3d& centre_map) {
   }
 }
 
+bool LocalMap::has_index() const { return index_ != nullptr; }
+
 void LocalMap::build_index() { index_ = std::make_unique<Index>(points_); }
 
 std::size_t LocalMap::nearest(const Eigen::Vector3d& query_map, double radius_m,

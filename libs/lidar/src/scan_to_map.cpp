@@ -1,6 +1,5 @@
 #include "traverse/lidar/scan_to_map.hpp"
 
-#include <utility>
 #include <vector>
 
 #include "traverse/lidar/deskew.hpp"
@@ -44,9 +43,8 @@ Registration ScanToMap::align(const ScanFeatures& features,
   const TimedPoints edges = at_stamp(features.thin_edges, velocity);
   const TimedPoints planar = at_stamp(features.thin_planar, velocity);
   watch.lap(ms.deskew);
-  if (!std::exchange(index_is_fresh_, true)) {
-    edge_map_.build_index();
-    planar_map_.build_index();
+  for (LocalMap* map : {&edge_map_, &planar_map_}) {
+    if (!map->has_index()) map->build_index();
   }
   watch.lap(ms.index);
 
@@ -85,7 +83,6 @@ void ScanToMap::insert(const ScanFeatures& features, const geometry::Pose3& T_ma
   planar_map_.insert(in_map(planar, T_map_lidar));
   edge_map_.follow(T_map_lidar.translation);
   planar_map_.follow(T_map_lidar.translation);
-  index_is_fresh_ = false;
   watch.lap(ms.insert);
 }
 

@@ -82,6 +82,34 @@ CorrectedScan ScanToMapOdometry::used_scan(const sensors::LidarScan& scan,
                       : corrected(scan, profile_, motion);
 }
 
+std::vector<Eigen::Vector3d> ScanToMapOdometry::local_map() const {
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(map_.size());
+  for (const LocalMap* part : {&map_.edge_map(), &map_.planar_map()}) {
+    points.insert(points.end(), part->points().begin(), part->points().end());
+  }
+  return points;
+}
+
+std::vector<MatchedPoint> ScanToMapOdometry::matches() const {
+  std::vector<MatchedPoint> points;
+  points.reserve(matches_.size());
+  for (const LineMatch& match : matches_.lines) {
+    const Line& line = match.line;
+    const Eigen::Vector3d q = T_map_last_ * match.p_lidar;
+    const Eigen::Vector3d foot =
+        line.point + line.direction * line.direction.dot(Eigen::Vector3d(q - line.point));
+    points.push_back({MatchedPoint::Kind::kLine, q, foot, line.direction, (q - foot).norm()});
+  }
+  for (const PlaneMatch& match : matches_.planes) {
+    const Eigen::Vector3d q = T_map_last_ * match.p_lidar;
+    const double residual = plane_residual(match.plane, q);
+    points.push_back({MatchedPoint::Kind::kPlane, q, q - residual * match.plane.normal,
+                      match.plane.normal, residual});
+  }
+  return points;
+}
+
 std::vector<Frame> ScanToMapOdometry::begin() {
   begun_ = true;
   if (options_.start.scans >= 2 && held_back_.size() >= 2) {
@@ -118,6 +146,7 @@ Frame ScanToMapOdometry::advance(const ScanFeatures& features, const StageTimes&
         map_.align(features, predicted, velocity_, steps_of_this_frame(), frame.ms);
     frame.T_map_lidar = registration.T_map_lidar.orthonormalised();
     frame.health = registration.health;
+    matches_ = std::move(registration.matches);
     if (registration.health.registered && dt > 0) {
       velocity_ = geometry::log_se3(T_map_last_.inverse() * frame.T_map_lidar) / dt;
     }

@@ -96,6 +96,33 @@ LidarEstimator::LidarEstimator(const MakeOdometry& make, const dataset::Recordin
   }
 }
 
+LidarEstimator::LidarEstimator(const LidarEstimator& other)
+    : sensor_(other.sensor_),
+      T_lidar_imu_(other.T_lidar_imu_),
+      imu_(other.imu_),
+      odometry_(other.odometry_->clone()),
+      columns_(other.columns_) {}
+
+std::unique_ptr<Estimator> LidarEstimator::clone() const {
+  return std::unique_ptr<Estimator>(new LidarEstimator(*this));
+}
+
+std::vector<Eigen::Vector3d> LidarEstimator::local_map() const {
+  std::vector<Eigen::Vector3d> points = odometry_->local_map();
+  for (Eigen::Vector3d& p : points) p = sensor_.T_body_sensor * p;
+  return points;
+}
+
+std::vector<MatchedPoint> LidarEstimator::matches() const {
+  std::vector<MatchedPoint> points;
+  for (const lidar::MatchedPoint& match : odometry_->matches()) {
+    points.push_back({match.kind == lidar::MatchedPoint::Kind::kLine,
+                      sensor_.T_body_sensor * match.p_map, sensor_.T_body_sensor * match.foot_map,
+                      sensor_.T_body_sensor.rotation * match.direction, match.residual_m});
+  }
+  return points;
+}
+
 const std::vector<std::string>& LidarEstimator::columns() const { return columns_; }
 
 std::vector<PoseFrame> LidarEstimator::process(const sensors::Measurement& measurement) {
@@ -152,6 +179,7 @@ UsedScan LidarEstimator::used_scan(const sensors::LidarScan& scan, const PoseFra
     const std::uint32_t source = points.source[i];
     if (!scan.intensity.empty()) used.intensity.push_back(scan.intensity[source] * scale);
   }
+  used.source = points.source;
   for (const lidar::FeatureClass c : points.classes) {
     used.feature_class.push_back(static_cast<std::uint8_t>(c));
   }

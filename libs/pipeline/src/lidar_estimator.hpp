@@ -29,8 +29,13 @@ class LidarEstimator final : public Estimator {
   std::string points_are() const override;
   std::vector<Decision> decisions() const override;
   std::vector<optimization::FactorUse> factors() const override { return odometry_->factors(); }
+  std::unique_ptr<Estimator> clone() const override;
+  std::vector<Eigen::Vector3d> local_map() const override;
+  std::vector<MatchedPoint> matches() const override;
 
  private:
+  LidarEstimator(const LidarEstimator& other);
+
   std::vector<PoseFrame> to_body(const std::vector<lidar::Frame>& frames) const;
   void observe(const sensors::ImuSample& sample);
 

@@ -34,11 +34,12 @@ std::vector<std::size_t> frames_by_concern(const pipeline::FrameTable& frames) {
   return order;
 }
 
-HtmlTable worst_table(const pipeline::FrameTable& frames) {
+HtmlTable worst_table(const RunData& run) {
+  const pipeline::FrameTable& frames = run.frames;
   HtmlTable table(
       "worst_frames", "Frames to look at first",
       {"frame", "time [s]", "registered", "degenerate", "residual rms [m]", "inliers [%]",
-       "line matches", "plane matches", "least eigenvalue", "time taken [ms]"});
+       "line matches", "plane matches", "least eigenvalue", "time taken [ms]", "to see it"});
   const auto number = frames.column("frame");
   const auto stamp = frames.column("stamp_s");
   const auto registered = frames.column("registered");
@@ -54,7 +55,8 @@ HtmlTable worst_table(const pipeline::FrameTable& frames) {
                    stamp[i] - stamp.front(), registered[i] != 0 ? "yes" : "no",
                    Cell::count(static_cast<std::size_t>(degenerate[i])), residual[i],
                    100 * inliers[i], Cell::count(static_cast<std::size_t>(lines[i])),
-                   Cell::count(static_cast<std::size_t>(planes[i])), eigenvalue[i], total[i]});
+                   Cell::count(static_cast<std::size_t>(planes[i])), eigenvalue[i], total[i],
+                   fmt::format("traverse-replay {} --at {:.0f}", run.folder.string(), number[i])});
   }
   return table;
 }
@@ -91,7 +93,7 @@ void add_health(const RunData& run, Model& model) {
   model.add_text("worst_how",
                  "Those that could not be registered, then those with degenerate directions, then "
                  "those with the largest residuals.");
-  model.add_table(worst_table(run.frames));
+  model.add_table(worst_table(run));
   model.page.set("frame_columns", std::to_string(run.frames.columns().size()));
 }
 

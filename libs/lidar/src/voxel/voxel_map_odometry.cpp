@@ -41,10 +41,8 @@ VoxelMapOdometry::VoxelMapOdometry(const VoxelMapOdometryOptions& options,
     : options_(options),
       profile_(profile),
       deskew_note_(describe_deskew(options.deskew, profile, motion_compensated)),
-      workers_(std::make_unique<Workers>(options.threads)),
+      workers_(std::make_shared<Workers>(options.threads)),
       map_(options.map) {}
-
-VoxelMapOdometry::~VoxelMapOdometry() = default;
 
 std::vector<Frame> VoxelMapOdometry::process(const sensors::LidarScan& scan) {
   SweepSample sample = sample_sweep(scan, profile_, options_.sampling, *workers_);

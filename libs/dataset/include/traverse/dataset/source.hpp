@@ -63,6 +63,12 @@ struct Reference {
   std::string description;  ///< how it was brought to the body frame
 };
 
+/// A place in a recording to come back to; each source knows its own kind.
+class Bookmark {
+ public:
+  virtual ~Bookmark() = default;
+};
+
 /// A recording: a stream of measurements in the order of their stamps.
 ///
 /// A record that cannot be used is skipped and counted when the rest is usable; an input that
@@ -89,6 +95,20 @@ class Source {
   /// How much of the recording next() has been through, 0 to 1, for a progress bar; nothing if
   /// that is not known.
   virtual std::optional<double> share_read() const { return std::nullopt; }
+
+  /// Where next() stands; null if this source can only rewind(). Small: of what has been read only
+  /// what waits to come out is kept.
+  virtual std::shared_ptr<const Bookmark> bookmark() const { return nullptr; }
+
+  /// Goes on from a bookmark that this source made: next() gives what it gave then, skipped()
+  /// counts what it counted.
+  virtual void return_to(const Bookmark& bookmark);
+
+  /// The stamps of the first lidar's scans in order, where the recording tells without its scans
+  /// being read; nothing else. A scan that turns out to be unusable is among them.
+  virtual std::optional<std::vector<geometry::Stamp>> listed_scan_stamps() const {
+    return std::nullopt;
+  }
 };
 
 }  // namespace traverse::dataset

@@ -10,14 +10,12 @@
 
 namespace traverse::lidar {
 
-/// Points of one scan, searched by place and scan line. A point is named by its number.
+/// Points of one scan, searched by place and scan line. A point is named by its number. Copies
+/// share the points, which never change.
 class LineIndex {
  public:
   LineIndex();  ///< of no points: nothing is ever found
   explicit LineIndex(LinedPoints points);
-  LineIndex(LineIndex&&) noexcept;
-  LineIndex& operator=(LineIndex&&) noexcept;
-  ~LineIndex();
 
   std::size_t size() const;
   Eigen::Vector3d point(std::uint32_t i) const;
@@ -35,7 +33,7 @@ class LineIndex {
 
  private:
   struct Search;
-  std::unique_ptr<Search> search_;
+  std::shared_ptr<const Search> search_;
 };
 
 }  // namespace traverse::lidar

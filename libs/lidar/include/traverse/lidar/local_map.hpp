@@ -32,8 +32,9 @@ class LocalMap {
   std::size_t size() const { return points_.size(); }
   std::span<const Eigen::Vector3d> points() const { return points_; }
 
-  /// Builds the search index over the present points; insert() and follow() make it stale.
+  /// Builds the search index over the present points; insert() and follow() drop it.
   void build_index();
+  bool has_index() const;
 
   /// Up to indices.size() nearest points within `radius_m` of `query_map`, nearest first, from the
   /// index of the last build_index(). \returns how many were found.

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "traverse/geometry/pose3.hpp"
 #include "traverse/lidar/corrected_scan.hpp"
@@ -11,6 +14,17 @@
 #include "traverse/sensors/lidar_scan.hpp"
 
 namespace traverse::lidar {
+
+/// A point of the last scan and what it was registered on, for the eye.
+struct MatchedPoint {
+  enum class Kind { kLine, kPlane };
+
+  Kind kind = Kind::kPlane;
+  Eigen::Vector3d p_map;      ///< the point under the estimated pose, metres
+  Eigen::Vector3d foot_map;   ///< the nearest point of the line or plane
+  Eigen::Vector3d direction;  ///< unit: of the line, or the plane's normal; map frame
+  double residual_m = 0;      ///< from foot_map to p_map; planes: positive on the normal's side
+};
 
 /// An algorithm that follows a lidar from scan to scan. Everything is in the lidar's own frame; the
 /// map frame is that of the first scan. The result depends on the scans and the options alone.
@@ -47,6 +61,16 @@ class Odometry {
   /// The points of a scan as this algorithm uses them. \param velocity the frame's
   virtual CorrectedScan used_scan(const sensors::LidarScan& scan, const geometry::Twist& velocity,
                                   bool with_classes) const = 0;
+
+  /// An independent copy: fed the same scans, both give the same bits. A copyable class makes one
+  /// in one line: `return std::make_unique<ThisClass>(*this);`
+  virtual std::unique_ptr<Odometry> clone() const = 0;
+
+  /// The points that the next scan will be registered on, map frame; empty if there is no such map.
+  virtual std::vector<Eigen::Vector3d> local_map() const { return {}; }
+
+  /// How the last frame was registered; empty if that is not kept.
+  virtual std::vector<MatchedPoint> matches() const { return {}; }
 };
 
 }  // namespace traverse::lidar

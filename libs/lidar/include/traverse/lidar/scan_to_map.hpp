@@ -54,7 +54,6 @@ class ScanToMap {
   ScanToMapOptions options_;
   LocalMap edge_map_;
   LocalMap planar_map_;
-  bool index_is_fresh_ = false;
 };
 
 }  // namespace traverse::lidar

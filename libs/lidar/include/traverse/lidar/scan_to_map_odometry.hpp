@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -48,6 +49,11 @@ class ScanToMapOdometry final : public Odometry {
   std::vector<optimization::FactorUse> factors() const override;
   CorrectedScan used_scan(const sensors::LidarScan& scan, const geometry::Twist& velocity,
                           bool with_classes) const override;
+  std::unique_ptr<Odometry> clone() const override {
+    return std::make_unique<ScanToMapOdometry>(*this);
+  }
+  std::vector<Eigen::Vector3d> local_map() const override;
+  std::vector<MatchedPoint> matches() const override;
 
   const ScanToMap& map() const { return map_; }
 
@@ -73,6 +79,7 @@ class ScanToMapOdometry final : public Odometry {
   geometry::Stamp last_stamp_;
   geometry::Pose3 T_map_last_;
   geometry::Twist velocity_ = geometry::Twist::Zero();  // at the last frame
+  Matches matches_;                                     // of the last frame
 };
 
 }  // namespace traverse::lidar

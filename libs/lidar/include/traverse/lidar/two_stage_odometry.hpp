@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,9 @@ class TwoStageOdometry final : public Odometry {
   CorrectedScan used_scan(const sensors::LidarScan& scan, const geometry::Twist& velocity,
                           bool with_classes) const override;
   const std::vector<std::string>& further_columns() const override;
+  std::unique_ptr<Odometry> clone() const override {
+    return std::make_unique<TwoStageOdometry>(*this);
+  }
 
   /// What the second stage has corrected so far.
   const geometry::Pose3& T_map_odom() const { return T_map_odom_; }

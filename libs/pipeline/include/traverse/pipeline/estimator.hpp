@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,12 +27,22 @@ struct UsedScan {
   std::vector<float> x, y, z;               ///< metres, body frame at the frame's stamp
   std::vector<float> intensity;             ///< 0 .. 1; empty, or one a point
   std::vector<std::uint8_t> feature_class;  ///< lidar::FeatureClass; empty, or one a point
+  std::vector<std::uint32_t> source = {};   ///< index of the point in the LidarScan; may be empty
 };
 
 /// Something the estimator decided about a recording, and why: "deskew", "on".
 struct Decision {
   std::string name;
   std::string value;
+};
+
+/// A point of the last scan on the line or plane of the map that it was registered on, map frame.
+struct MatchedPoint {
+  bool on_line = false;       ///< else on a plane
+  Eigen::Vector3d p_map;      ///< metres, under the estimated pose
+  Eigen::Vector3d foot_map;   ///< the nearest point of the line or plane
+  Eigen::Vector3d direction;  ///< unit: of the line, or the plane's normal
+  double residual_m = 0;      ///< from foot to point; on planes positive on the normal's side
 };
 
 /// An algorithm that turns measurements into poses. Its result depends on the measurements and its
@@ -61,6 +72,15 @@ class Estimator {
 
   /// The factors that it solves with, if it does; a run checks their Jacobians.
   virtual std::vector<optimization::FactorUse> factors() const { return {}; }
+
+  /// An independent copy: fed the same measurements, both give the same bits (wall times aside).
+  virtual std::unique_ptr<Estimator> clone() const = 0;
+
+  /// The points that the next scan will be registered on, map frame; empty if there is no such map.
+  virtual std::vector<Eigen::Vector3d> local_map() const { return {}; }
+
+  /// How the last frame was registered; empty if the estimator does not keep it.
+  virtual std::vector<MatchedPoint> matches() const { return {}; }
 };
 
 }  // namespace traverse::pipeline

@@ -39,7 +39,6 @@ class VoxelMapOdometry final : public Odometry {
   /// \param profile of the sensor  \param motion_compensated the scans need no deskew
   VoxelMapOdometry(const VoxelMapOdometryOptions& options, const sensors::LidarProfile& profile,
                    bool motion_compensated);
-  ~VoxelMapOdometry() override;
 
   std::vector<Frame> process(const sensors::LidarScan& scan) override;
   std::vector<Frame> finish() override;
@@ -49,6 +48,10 @@ class VoxelMapOdometry final : public Odometry {
   /// point, kNone a point that was not sampled or is not planar.
   CorrectedScan used_scan(const sensors::LidarScan& scan, const geometry::Twist& velocity,
                           bool with_classes) const override;
+
+  std::unique_ptr<Odometry> clone() const override {
+    return std::make_unique<VoxelMapOdometry>(*this);
+  }
 
   const VoxelMap& map() const { return map_; }
 
@@ -60,7 +63,7 @@ class VoxelMapOdometry final : public Odometry {
   VoxelMapOdometryOptions options_;
   sensors::LidarProfile profile_;
   std::string deskew_note_;
-  std::unique_ptr<Workers> workers_;
+  std::shared_ptr<Workers> workers_;  ///< copies share the threads, which hold no state
   VoxelMap map_;
 
   std::vector<SweepSample> held_back_;

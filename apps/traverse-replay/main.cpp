@@ -1,0 +1,153 @@
+#include <cstdio>
+#include <exception>
+#include <nanogui/opengl.h>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "traverse/replay/script.hpp"
+
+#include "console.hpp"
+#include "message_window.hpp"
+#include "open_request.hpp"
+#include "replay_window.hpp"
+#include "script_runner.hpp"
+
+namespace traverse::app {
+
+namespace {
+
+constexpr int kFailure = 1;
+constexpr int kUsage = 2;
+
+constexpr const char* kExamples = R"(Examples:
+  traverse-replay drive.rawlog                       with the preset floam at work in it
+  traverse-replay drive.rawlog --pipeline floam --set map.radius_m=60 --play
+  traverse-replay RUN --at 1317042145.964            a run of `traverse run`, at a stamp
+  xvfb-run traverse-replay drive.rawlog --headless --script pictures.txt
+H in the window shows the keys. Exit status: 0 done, 1 failed, 2 wrong usage.)";
+
+void print_script_help() {
+  std::puts("A script is a text file, a command a line; '#' begins a comment.");
+  for (const auto& word : replay::kScriptWords) {
+    const std::string head = fmt::format("{} {}", word.name, word.argument);
+    fmt::print("  {:<24} {}\n", head, word.meaning);
+  }
+}
+
+void print_report(const RedrawReport& report) {
+  if (report.seconds > 0) {
+    fmt::print(
+        "redraws while playing: {} in {:.1f} s ({:.1f} a second), at most {} points, the "
+        "window's loop never took longer than {:.0f} ms\n",
+        report.redraws, report.seconds, static_cast<double>(report.redraws) / report.seconds,
+        report.most_points, 1000 * report.longest_s);
+  }
+  if (report.gl_errors > 0) fmt::print(stderr, "OpenGL errors: {}\n", report.gl_errors);
+}
+
+/// A place on the command line may lie where the index has not come to yet.
+bool seek_when_known(const std::string& at, replay::Player& player) {
+  if (player.timeline().size() == 0) return false;
+  const bool is_known = player.timeline().complete();
+  return player.seek(at) && is_known;
+}
+
+int run_window(const OpenRequest& request, replay::Player& player, const std::string& title) {
+  std::optional<ScriptRunner> script;
+  if (!request.script.empty()) script.emplace(request.script);
+  int status = 0;
+  nanogui::init();
+  {
+    Console console(player, request.preset, request.output_folder);
+    nanogui::ref<ReplayWindow> window =
+        new ReplayWindow(console, title, request.width, request.height);
+    window->setVisible(true);
+    if (request.play) console.execute("play");
+    bool has_sought = request.at.empty();
+    try {
+      while (window->round()) {
+        if (!has_sought) {
+          has_sought = seek_when_known(request.at, player);
+        } else if (script && !script->work(console, *window)) {
+          if (request.headless) break;
+          script.reset();
+        }
+      }
+    } catch (const std::exception& error) {
+      fmt::print(stderr, "traverse-replay: {}\n", error.what());
+      status = kFailure;
+    }
+    if (request.headless) print_report(window->report());
+    if (window->report().gl_errors > 0) status = kFailure;
+    const std::string error = player.status().error;
+    if (request.headless && !error.empty()) {
+      fmt::print(stderr, "traverse-replay: {}\n", error);
+      status = kFailure;
+    }
+  }
+  nanogui::shutdown();
+  return status;
+}
+
+int replay_file(const OpenRequest& request) {
+  std::optional<replay::Player> player;
+  try {
+    replay::PlayerOptions options;
+    options.preset = request.preset;
+    options.threads = request.threads;
+    options.keep_index = request.keep_index;
+    player.emplace(open(request), options);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "traverse-replay: {}\n", error.what());
+    std::fflush(stderr);
+    if (!request.headless) show_message("Traverse replay: nothing to show", error.what());
+    return kFailure;
+  }
+  if (glfwInit() == GLFW_FALSE) {
+    fmt::print(stderr,
+               "traverse-replay: no display to open a window on; under "
+               "`xvfb-run traverse-replay ...` there is one\n");
+    return kFailure;
+  }
+  return run_window(request, *player,
+                    "Traverse replay: " + player->recording().info().path.filename().string());
+}
+
+}  // namespace
+
+}  // namespace traverse::app
+
+int main(int argc, char** argv) {
+  using traverse::app::kUsage;
+  CLI::App app{"Traverse replay: a window on a recording, with the estimator at work in it",
+               "traverse-replay"};
+  app.set_version_flag("--version", TRAVERSE_VERSION);
+  app.footer(traverse::app::kExamples);
+  traverse::app::OpenRequest request;
+  bool help_script = false;
+  traverse::app::add_options(app, request);
+  app.add_flag("--help-script", help_script, "list the commands of a script and exit");
+  try {
+    app.parse(argc, argv);
+    if (help_script) {
+      traverse::app::print_script_help();
+      return 0;
+    }
+    if (request.file_or_run.empty()) throw CLI::RequiredError("FILE|RUN");
+    if (request.headless && request.script.empty()) {
+      throw CLI::ValidationError("--headless", "needs --script");
+    }
+  } catch (const CLI::ParseError& error) {
+    const int status = app.exit(error);
+    return status == 0 ? 0 : kUsage;
+  }
+  try {
+    return traverse::app::replay_file(request);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "traverse-replay: {}\n", error.what());
+    return traverse::app::kFailure;
+  }
+}

@@ -1,0 +1,80 @@
+#include "traverse/replay/recording.hpp"
+
+#include <utility>
+
+#include "traverse/dataset/trajectory_files.hpp"
+#include "traverse/files/input_error.hpp"
+#include "traverse/replay/frame_sensor.hpp"
+#include "traverse/replay/path_estimator.hpp"
+
+namespace traverse::replay {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The statements about the recording on a run's command line, which hold for its replay too.
+void add_statements(const std::vector<std::string>& command, dataset::OpenOptions& options) {
+  for (std::size_t i = 0; i + 1 < command.size(); ++i) {
+    if (command[i] == "--recording") options.statements.push_back(command[i + 1]);
+    if (command[i] == "--recording-config") options.statements_file = command[i + 1];
+  }
+}
+
+}  // namespace
+
+Recording Recording::open(const fs::path& file_or_run, const dataset::OpenOptions& options,
+                          const fs::path& moved_to) {
+  Recording recording;
+  recording.path_ = file_or_run;
+  recording.options_ = options;
+  const pipeline::RunFolder folder{file_or_run};
+  if (fs::exists(folder.record())) {
+    recording.run_ = Run{folder, read_run_facts(folder)};
+    const RunFacts& facts = recording.run_->facts;
+    recording.path_ = moved_to.empty() ? facts.recording : moved_to;
+    recording.most_frames_ = facts.first_frame + facts.frames;
+    add_statements(facts.command, recording.options_);
+    if (!fs::exists(recording.path_)) {
+      throw files::InputError(folder.record(), files::Place::key("recording.path"),
+                              "the recording of the run where it was (--moved-to says where it is "
+                              "now)",
+                              recording.path_.string() + ", which is not there");
+    }
+  }
+  const auto source = recording.source();
+  recording.info_ = source->info();
+  recording.reference_ = source->reference();
+  if (recording.run_ && fs::exists(folder.reference())) {
+    recording.reference_ = dataset::Reference{
+        dataset::read_trajectory(folder.reference(), dataset::TrajectoryFormat::kTum),
+        folder.reference(), "of the run"};
+  }
+  recording.frame_sensor_ = replay::frame_sensor(recording.info_.rig);
+  return recording;
+}
+
+std::unique_ptr<dataset::Source> Recording::source() const {
+  return dataset::open_recording(path_, options_);
+}
+
+pipeline::Pipeline Recording::make_pipeline(const pipeline::PresetRequest& request,
+                                            int threads) const {
+  pipeline::Pipeline pipeline;
+  if (!has_lidar()) {
+    pipeline.name = "recorded path";
+    pipeline.description = "the recording's own odometry or satellite fixes";
+    pipeline.estimator = std::make_unique<PathEstimator>(frame_sensor_);
+    return pipeline;
+  }
+  const auto preset =
+      pipeline::load_preset(run_ ? run_->facts.preset : request, options_.share_folder);
+  pipeline = pipeline::make_pipeline(preset, info_, threads);
+  if (run_) {
+    pipeline.name += " (as run)";
+    pipeline.estimator = make_run_estimator(run_->folder, std::move(pipeline.estimator));
+  }
+  return pipeline;
+}
+
+}  // namespace traverse::replay

@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "traverse/files/atomic_file.hpp"
+
+#include "replay/simulated_rawlog.hpp"
+#include "temporary_folder.hpp"
+#include "traverse_replay/screen.hpp"
+
+namespace traverse {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::eventually;
+using ::testing::HasSubstr;
+using testing::WindowedProgram;
+
+constexpr int kWidth = 1000;
+constexpr int kHeight = 700;
+constexpr std::size_t kFrames = 40;
+
+/// Real key presses and clicks; the frame on show is told by the name of a screenshot.
+class WindowTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = new testing::TemporaryFolder();
+    testing::write_simulated_rawlog(*shared_ / "street.rawlog", kFrames);
+  }
+  static void TearDownTestSuite() { delete shared_; }
+
+  void SetUp() override {
+    for (const char* program : {"Xvfb", "xdotool"}) {
+      if (!testing::is_installed(program)) {
+        GTEST_SKIP() << program << " is not installed: no window can be opened";
+      }
+    }
+    screen_ = std::make_unique<testing::Screen>(folder_.path());
+  }
+
+  static std::string arguments(const std::string& more = "") {
+    return fmt::format("'{}' --width {} --height {} --no-index-cache {}",
+                       (*shared_ / "street.rawlog").string(), kWidth, kHeight, more);
+  }
+
+  std::size_t pictures() const {
+    std::size_t count = 0;
+    for (const auto& entry : fs::directory_iterator(folder_.path())) {
+      count += entry.path().extension() == ".png" ? 1 : 0;
+    }
+    return count;
+  }
+
+  /// The frame on show, from the name of a screenshot that is taken now.
+  int frame(WindowedProgram& program) {
+    const std::size_t before = pictures();
+    program.press("s");
+    if (!eventually([&] { return pictures() > before || program.has_ended(); })) return -1;
+    fs::path newest;
+    for (const auto& entry : fs::directory_iterator(folder_.path())) {
+      if (entry.path().extension() != ".png") continue;
+      if (newest.empty() || entry.last_write_time() > fs::last_write_time(newest)) {
+        newest = entry.path();
+      }
+    }
+    const std::string name = newest.stem().string();
+    const std::size_t at = name.find("frame-");
+    return at == std::string::npos ? -1 : std::stoi(name.substr(at + 6, 6));
+  }
+  bool shows(WindowedProgram& program, int wanted) {
+    return eventually([&] { return program.has_ended() || frame(program) == wanted; }, 60);
+  }
+
+  static testing::TemporaryFolder* shared_;
+  testing::TemporaryFolder folder_;
+  std::unique_ptr<testing::Screen> screen_;
+};
+
+testing::TemporaryFolder* WindowTest::shared_ = nullptr;
+
+TEST_F(WindowTest, ObeysKeysAndMouse) {
+  WindowedProgram program(*screen_, folder_.path(), arguments());
+  ASSERT_TRUE(program.has_window()) << program.messages();
+  EXPECT_TRUE(shows(program, 0));
+
+  program.press("Right Right Right");
+  EXPECT_TRUE(shows(program, 3)) << "three steps";
+  program.press("shift+Right");
+  EXPECT_TRUE(shows(program, 13)) << "ten steps";
+  program.press("Left");
+  EXPECT_TRUE(shows(program, 12)) << "one step back";
+  program.press("End");
+  EXPECT_TRUE(shows(program, kFrames - 1)) << "end";
+  program.press("Home");
+  EXPECT_TRUE(shows(program, 0)) << "home";
+
+  program.press("bracketright bracketright");  // four times real time
+  program.press("space");
+  EXPECT_TRUE(eventually([&] { return frame(program) > 5; })) << "play";
+  program.press("space");
+  const int paused = frame(program);
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  EXPECT_NEAR(frame(program), paused, 4) << "pause";  // the few that were on their way
+
+  program.click((kWidth - 24) / 2 + 12, kHeight - 88 + 19);  // the middle of the time line
+  EXPECT_TRUE(eventually([&] { return std::abs(frame(program) - 20) <= 1; })) << "seek by mouse";
+
+  program.press("g");
+  program.press("1 7 Return");
+  EXPECT_TRUE(shows(program, 17)) << "typed";
+  const int origin = frame(program);
+  program.press("r");  // the pipeline begins again at this frame
+  program.press("Home");
+  EXPECT_TRUE(shows(program, origin)) << "restarted here: nothing before";
+
+  for (const char* key : {"t", "v", "f", "c", "c", "3", "4", "h", "h", "l", "i", "o", "p"}) {
+    program.press(key);
+  }
+  program.press("ctrl+s");
+  EXPECT_TRUE(eventually([&] {
+    return fs::exists(folder_.path() / fmt::format("street-frame-{:06}/trajectory.tum", origin));
+  })) << "saved";
+  program.press("q");
+  EXPECT_EQ(program.exit_status(), 0) << program.messages();
+  EXPECT_EQ(program.messages(), "");
+}
+
+TEST_F(WindowTest, OpensAndClosesTenTimes) {
+  for (int cycle = 0; cycle < 10; ++cycle) {
+    WindowedProgram program(*screen_, folder_.path(), arguments("--play"));
+    ASSERT_TRUE(program.has_window()) << program.messages();
+    program.press("q");
+    ASSERT_EQ(program.exit_status(), 0) << program.messages();
+    ASSERT_EQ(program.messages(), "");
+  }
+}
+
+TEST_F(WindowTest, WorksThroughAScript) {
+  files::write_text(folder_ / "script", R"(settle
+expect-frame 0
+seek 1.2s
+settle
+expect-frame 12
+colour residual
+view top
+screenshot here.png
+set map.radius_m=50
+restart here
+settle
+expect-frame 12
+end
+settle
+expect-frame 39
+)");
+  WindowedProgram program(*screen_, folder_.path(), arguments("--headless --script script"));
+  EXPECT_EQ(program.exit_status(), 0) << program.messages();
+  EXPECT_GT(fs::file_size(folder_ / "here.png"), 10'000U);
+
+  files::write_text(folder_ / "wrong", "settle\nexpect-frame 7\n");
+  WindowedProgram failing(*screen_, folder_.path(), arguments("--headless --script wrong"));
+  EXPECT_EQ(failing.exit_status(), 1);
+  EXPECT_THAT(failing.messages(), HasSubstr("line 2: expect-frame 7: frame 0 is on show"));
+}
+
+TEST_F(WindowTest, SaysWhatIsWrongInAWindowToo) {
+  files::write_text(folder_ / "empty.rawlog", "");
+  WindowedProgram program(*screen_, folder_.path(), "empty.rawlog");
+  ASSERT_TRUE(program.has_window()) << program.messages();
+  EXPECT_THAT(program.messages(), HasSubstr("empty.rawlog"));
+  EXPECT_THAT(program.messages(), HasSubstr("an empty file"));
+  program.press("q");
+  EXPECT_EQ(program.exit_status(), 1);
+}
+
+}  // namespace
+}  // namespace traverse
