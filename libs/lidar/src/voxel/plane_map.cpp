@@ -260,6 +260,15 @@ void PlaneMap::prefetch(const CellGrid& at, const RelativeCell& cell) const {
   __builtin_prefetch(&shard.fine.table[shard.fine.home(cell_key(cx, cy, cz))]);
 }
 
+void PlaneMap::prefetch_plane(const CellGrid& at, const RelativeCell& cell) const {
+  const std::int32_t cx = cell.x + at.base[0];
+  const std::int32_t cy = cell.y + at.base[1];
+  const std::int32_t cz = cell.z + at.base[2];
+  const Shard& shard = shards_[shard_of(parent_of(cx), parent_of(cy), parent_of(cz))];
+  const std::uint32_t fine = shard.fine.find(cell_key(cx, cy, cz));
+  if (fine != kNone) __builtin_prefetch(&shard.fine.planes[fine]);
+}
+
 void PlaneMap::keep_near(const Eigen::Vector3d& centre_map, double radius_m, Workers& workers) {
   const double coarse_m = kParent * options_.cell_m;
   workers.run(kShards, [&](std::size_t s) {

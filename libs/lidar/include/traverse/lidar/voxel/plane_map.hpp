@@ -52,8 +52,10 @@ class PlaneMap {
   /// \returns false if neither the cell nor its parent has a plane.
   bool find(const CellGrid& grid, const RelativeCell& cell, Answer& answer) const;
 
-  /// Starts to fetch what find() will read for the cell: the map is larger than the cache.
+  /// Starts to fetch where find() will look the cell up: the map is larger than the cache.
   void prefetch(const CellGrid& grid, const RelativeCell& cell) const;
+  /// Looks the cell up and starts to fetch its plane; a while after prefetch().
+  void prefetch_plane(const CellGrid& grid, const RelativeCell& cell) const;
 
   CellGrid grid(const Eigen::Vector3d& origin_map) const { return {origin_map, options_.cell_m}; }
   std::size_t size() const;   ///< fine cells, with a plane or without
