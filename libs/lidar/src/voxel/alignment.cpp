@@ -8,8 +8,8 @@
 #include <ceres/solver.h>
 
 #include "traverse/geometry/so3.hpp"
-
 #include "traverse/optimization/rotation_manifold.hpp"
+
 #include "stopwatch.hpp"
 #include "voxel/condensed_cost.hpp"
 #include "voxel/workers.hpp"

@@ -40,8 +40,10 @@ bool CondensedCost::Evaluate(double const* const* parameters, double* residuals,
   if (jacobians[0] != nullptr) {
     Eigen::Map<Eigen::Matrix<double, 7, 4, Eigen::RowMajor>> J(jacobians[0]);
     J.setZero();
-    J.topRows<6>() =
-        4 * Lt.leftCols<3>() * optimization::RotationManifold::plus_jacobian(q.coeffs().data(), optimization::Perturbation::kRight).transpose();
+    J.topRows<6>() = 4 * Lt.leftCols<3>() *
+                     optimization::RotationManifold::plus_jacobian(
+                         q.coeffs().data(), optimization::Perturbation::kRight)
+                         .transpose();
   }
   if (jacobians[1] != nullptr) {
     Eigen::Map<Eigen::Matrix<double, 7, 3, Eigen::RowMajor>> J(jacobians[1]);

@@ -42,7 +42,8 @@ std::size_t points_in(float spacing, const Row& row, std::size_t i) {
   const float ex = row.x[i + kReach] - row.x[i - kReach];
   const float ey = row.y[i + kReach] - row.y[i - kReach];
   const float ez = row.z[i + kReach] - row.z[i - kReach];
-  const float step = std::sqrt(ex * ex + ey * ey + ez * ez) / (2 * kReach) + 1e-4F;
+  constexpr float kShare = 1.0F / (2 * kReach);
+  const float step = std::sqrt(ex * ex + ey * ey + ez * ez) * kShare + 1e-4F;
   const float points = spacing / step;
   const auto whole = static_cast<std::int32_t>(points);
   const std::int32_t ceiling =
