@@ -50,6 +50,9 @@ class VoxelMapOdometry final : public Odometry {
   CorrectedScan used_scan(const sensors::LidarScan& scan, const geometry::Twist& velocity,
                           bool with_classes) const override;
 
+  /// The rows of row_factor_kinds(), of which the cost is the sum.
+  std::vector<optimization::FactorUse> factors() const override;
+
   const VoxelMap& map() const { return map_; }
 
  private:
