@@ -2,9 +2,13 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "traverse/lidar/factor_kinds.hpp"
+#include "traverse/optimization/jacobian_audit.hpp"
 #include "traverse/sensors/rings.hpp"
 
 #include "lidar/simulated_drive.hpp"
@@ -266,6 +270,27 @@ TEST(TwoStageOdometry, AnImuThatStopsIsMissedNotFollowed) {
   EXPECT_EQ(frames[4].further[8], 1);
   EXPECT_EQ(frames[8].further[8], 0);
   EXPECT_LT(worst_position_error(frames, drive), 0.1);
+}
+
+TEST(TwoStageOdometry, ItsFactorsAreThoseOfItsStages) {
+  const auto names = [](const TwoStageOdometryOptions& options, bool motion_compensated) {
+    const TwoStageOdometry odometry(options, simulation::demo_scanner().profile,
+                                    motion_compensated);
+    std::vector<std::string> found;
+    for (const auto& kind : optimization::selected(factor_kinds(), odometry.factors())) {
+      found.push_back(kind.name);
+    }
+    return found;
+  };
+  const std::vector<std::string> plain{"line vector", "plane signed"};
+  const std::vector<std::string> swept{"swept line vector", "swept plane signed"};
+  const std::vector<std::string> both{swept[0], swept[1], plain[0], plain[1]};
+  EXPECT_EQ(names(preset(SweepMotion::kPerPoint), false), both);
+  EXPECT_EQ(names(preset(SweepMotion::kPerPoint), true), plain) << "nothing to undo";
+  EXPECT_EQ(names(preset(SweepMotion::kDeskew), false), plain);
+  TwoStageOdometryOptions first_alone = preset(SweepMotion::kPerPoint);
+  first_alone.registration_steps = 0;
+  EXPECT_EQ(names(first_alone, false), swept);
 }
 
 }  // namespace

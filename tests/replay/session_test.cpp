@@ -69,6 +69,7 @@ class SessionTest : public ::testing::TestWithParam<int> {
 
   std::unique_ptr<pipeline::Estimator> estimator() const {
     pipeline::PresetRequest request;
+    request.name = "floam";  // which shows its local map and its matches
     request.assignments = {"start.slowest_mps=8", "start.fastest_mps=12", "start.step_mps=4"};
     return recording_->make_pipeline(request, 1).estimator;
   }

@@ -3,6 +3,8 @@
 #include <string>
 #include <utility>
 
+#include "traverse/lidar/voxel/row_factor_kinds.hpp"
+
 #include "point_factor_list.hpp"
 
 namespace traverse::lidar {
@@ -88,6 +90,7 @@ std::vector<FactorKind> factor_kinds() {
     kinds.push_back(kind<PlaneDistanceResidual>(name_of(PlaneForm::kAbsolute, sweep),
                                                 "r = |n · q + d|", sweep));
   }
+  for (FactorKind& rows : voxel::row_factor_kinds()) kinds.push_back(std::move(rows));
   return kinds;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "traverse/lidar/factor_kinds.hpp"
 #include "traverse/sensors/sweep_timing.hpp"
 
 #include "stopwatch.hpp"
@@ -119,6 +120,17 @@ const std::vector<std::string>& TwoStageOdometry::further_columns() const {
                                                  "odometry_eigenvalue_1",
                                                  "odometry_turn_measured"};
   return kColumns;
+}
+
+std::vector<optimization::FactorUse> TwoStageOdometry::factors() const {
+  const bool swept =
+      deskew_note_ == "on" && options_.odometry.sweep_motion == SweepMotion::kPerPoint;
+  std::vector<optimization::FactorUse> uses =
+      factors_of(options_.solver, swept ? Sweep::kSwept : Sweep::kDeskewed);
+  if (swept && options_.registration_steps > 0) {
+    for (optimization::FactorUse& use : factors_of(options_.solver)) uses.push_back(std::move(use));
+  }
+  return uses;
 }
 
 std::vector<Frame> TwoStageOdometry::begin() {

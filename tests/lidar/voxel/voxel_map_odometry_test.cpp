@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "traverse/lidar/factor_kinds.hpp"
+#include "traverse/optimization/jacobian_audit.hpp"
+
 #include "lidar/simulated_drive.hpp"
 
 namespace traverse::lidar::voxel {
@@ -62,6 +65,14 @@ TEST_F(VoxelStreet, FollowsADriveThatStartsAtSpeed) {
     EXPECT_EQ(frames[i].points, street().scans[i].size());
   }
   EXPECT_LT(worst_position_error(frames, street()), 0.06);  // over 18 m, range noise 2 cm
+}
+
+TEST_F(VoxelStreet, ItsFactorsAreKinds) {
+  const VoxelMapOdometry odometry({}, street().scanner.profile, false);
+  const auto kinds = optimization::selected(factor_kinds(), odometry.factors());
+  ASSERT_EQ(kinds.size(), 2U);
+  EXPECT_EQ(kinds[0].name, "voxel plane row");
+  EXPECT_EQ(kinds[1].name, "voxel line rows");
 }
 
 TEST_F(VoxelStreet, FindsEverySpeedAtTheStart) {

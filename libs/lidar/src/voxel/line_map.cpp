@@ -1,7 +1,5 @@
 #include "traverse/lidar/voxel/line_map.hpp"
 
-#include "voxel/point_hash.hpp"
-
 namespace traverse::lidar::voxel {
 
 void bind(config::Binder& b, LineMapOptions& o) {
@@ -38,19 +36,12 @@ void LineMap::insert(const LocalPoints& points) {
 }
 
 std::uint32_t LineMap::find_or_add(std::int32_t x, std::int32_t y, std::int32_t z) {
-  const std::uint32_t key = cell_key(x, y, z);
-  const std::size_t mask = table_.size() - 1;
-  std::size_t i = spread(key) >> (32U - bits_);
-  for (; table_[i] != kFree; i = (i + 1) & mask) {
-    if (static_cast<std::uint32_t>(table_[i] >> 32U) == key) {
-      return static_cast<std::uint32_t>(table_[i]);
-    }
+  const auto next = static_cast<std::uint32_t>(cold_.size());
+  const std::uint32_t index = table_.find_or_add(cell_key(x, y, z), next);
+  if (index == next) {
+    cold_.push_back({{}, 0, 0, 0, {x, y, z}});
+    lines_.emplace_back();
   }
-  const auto index = static_cast<std::uint32_t>(cold_.size());
-  table_[i] = std::uint64_t{key} << 32U | index;
-  cold_.push_back({{}, 0, 0, 0, {x, y, z}});
-  lines_.emplace_back();
-  if (2 * cold_.size() > table_.size()) rebuild_table();
   return index;
 }
 
@@ -74,14 +65,10 @@ void LineMap::refit(std::uint32_t index) {
 }
 
 bool LineMap::find(const CellGrid& at, const RelativeCell& c, Answer& answer) const {
-  const std::uint32_t key = cell_key(c.x + at.base[0], c.y + at.base[1], c.z + at.base[2]);
-  const std::size_t mask = table_.size() - 1;
-  std::size_t i = spread(key) >> (32U - bits_);
-  while (table_[i] != kFree && static_cast<std::uint32_t>(table_[i] >> 32U) != key) {
-    i = (i + 1) & mask;
-  }
-  if (table_[i] == kFree) return false;
-  const LineCell& cell = lines_[static_cast<std::uint32_t>(table_[i])];
+  const std::uint32_t index =
+      table_.find(cell_key(c.x + at.base[0], c.y + at.base[1], c.z + at.base[2]));
+  if (index == CellTable::kNone) return false;
+  const LineCell& cell = lines_[index];
   if (!cell.is_line) return false;
   const Eigen::Vector3f centre(at.centre(c.x, 0), at.centre(c.y, 1), at.centre(c.z, 2));
   const FittedLine& line = cell.line;
@@ -96,8 +83,7 @@ bool LineMap::find(const CellGrid& at, const RelativeCell& c, Answer& answer) co
 }
 
 void LineMap::prefetch(const CellGrid& at, const RelativeCell& c) const {
-  const std::uint32_t key = cell_key(c.x + at.base[0], c.y + at.base[1], c.z + at.base[2]);
-  __builtin_prefetch(&table_[spread(key) >> (32U - bits_)]);
+  table_.prefetch(cell_key(c.x + at.base[0], c.y + at.base[1], c.z + at.base[2]));
 }
 
 void LineMap::keep_near(const Eigen::Vector3d& centre_map, double radius_m) {
@@ -112,24 +98,15 @@ void LineMap::keep_near(const Eigen::Vector3d& centre_map, double radius_m) {
   }
   cold_.resize(kept);
   lines_.resize(kept);
-  rebuild_table();
-}
-
-void LineMap::rebuild_table() {
-  while (2 * cold_.size() > std::size_t{1} << bits_) ++bits_;
-  table_.assign(std::size_t{1} << bits_, kFree);
-  const std::size_t mask = table_.size() - 1;
-  for (std::size_t k = 0; k < cold_.size(); ++k) {
+  table_.clear(kept);
+  for (std::uint32_t k = 0; k < kept; ++k) {
     const auto& c = cold_[k].number;
-    const std::uint32_t key = cell_key(c[0], c[1], c[2]);
-    std::size_t i = spread(key) >> (32U - bits_);
-    while (table_[i] != kFree) i = (i + 1) & mask;
-    table_[i] = std::uint64_t{key} << 32U | k;
+    table_.find_or_add(cell_key(c[0], c[1], c[2]), k);
   }
 }
 
 std::size_t LineMap::bytes() const {
-  return table_.capacity() * sizeof(std::uint64_t) + cold_.capacity() * sizeof(ColdCell) +
+  return table_.bytes() + cold_.capacity() * sizeof(ColdCell) +
          lines_.capacity() * sizeof(LineCell) + touched_.capacity() * sizeof(std::uint32_t);
 }
 

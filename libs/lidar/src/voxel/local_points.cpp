@@ -2,9 +2,36 @@
 
 #include "traverse/lidar/voxel/cell_grid.hpp"
 
+#include "voxel/lanes.hpp"
 #include "voxel/workers.hpp"
 
 namespace traverse::lidar::voxel {
+
+namespace {
+
+struct FloatTransform {
+  float r[9], t[3];
+};
+
+TRAVERSE_AVX2_TOO
+void transform(const float* __restrict px, const float* __restrict py, const float* __restrict pz,
+               const float* __restrict time, std::size_t count, const SweepMotion& motion,
+               const FloatTransform& to, float* __restrict out_x, float* __restrict out_y,
+               float* __restrict out_z) {
+  const SweepMotion m = motion;
+  const FloatTransform f = to;
+  for (std::size_t i = 0; i < count; ++i) {
+    float x = px[i];
+    float y = py[i];
+    float z = pz[i];
+    m.apply(time[i], x, y, z);
+    out_x[i] = f.r[0] * x + f.r[1] * y + f.r[2] * z + f.t[0];
+    out_y[i] = f.r[3] * x + f.r[4] * y + f.r[5] * z + f.t[1];
+    out_z[i] = f.r[6] * x + f.r[7] * y + f.r[8] * z + f.t[2];
+  }
+}
+
+}  // namespace
 
 SweepMotion::SweepMotion(const geometry::Twist& velocity) {
   for (int k = 0; k < 3; ++k) {
@@ -19,31 +46,14 @@ void to_local(const SweepPoints& points, const geometry::Pose3& T_map_lidar,
   local.origin_map = origin_near(T_map_lidar.translation);
   for (auto* values : {&local.x, &local.y, &local.z}) values->resize(points.size());
   const SweepMotion motion(velocity);
-  const Eigen::Matrix3f R = T_map_lidar.rotation.cast<float>();
-  const Eigen::Vector3f t = (T_map_lidar.translation - local.origin_map).cast<float>();
-  const float r[9] = {R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1),
-                      R(1, 2), R(2, 0), R(2, 1), R(2, 2)};
-  const float tx = t.x();
-  const float ty = t.y();
-  const float tz = t.z();
+  FloatTransform to;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) to.r[3 * i + j] = static_cast<float>(T_map_lidar.rotation(i, j));
+    to.t[i] = static_cast<float>(T_map_lidar.translation[i] - local.origin_map[i]);
+  }
   workers.run_chunks(points.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    const float* px = points.x.data();
-    const float* py = points.y.data();
-    const float* pz = points.z.data();
-    const float* time = points.time.data();
-    float* __restrict out_x = local.x.data();
-    float* __restrict out_y = local.y.data();
-    float* __restrict out_z = local.z.data();
-    const SweepMotion m = motion;
-    for (std::size_t i = begin; i < end; ++i) {
-      float x = px[i];
-      float y = py[i];
-      float z = pz[i];
-      m.apply(time[i], x, y, z);
-      out_x[i] = r[0] * x + r[1] * y + r[2] * z + tx;
-      out_y[i] = r[3] * x + r[4] * y + r[5] * z + ty;
-      out_z[i] = r[6] * x + r[7] * y + r[8] * z + tz;
-    }
+    transform(&points.x[begin], &points.y[begin], &points.z[begin], &points.time[begin],
+              end - begin, motion, to, &local.x[begin], &local.y[begin], &local.z[begin]);
   });
 }
 

@@ -9,8 +9,7 @@ namespace traverse::lidar::voxel {
 
 namespace {
 
-constexpr std::uint64_t kFree = ~std::uint64_t{0};
-constexpr std::uint32_t kNone = 0xffffffffU;
+constexpr std::uint32_t kNone = CellTable::kNone;
 constexpr std::int32_t kParent = 3;                 // fine cells along an edge of a coarse one
 constexpr std::int32_t kFar = kParent * (1 << 24);  // makes any cell number positive
 constexpr float kMostPoints = 4096;  // in the sums of a cell; then the old ones count half
@@ -47,54 +46,7 @@ void bind(config::Binder& b, PlaneMapOptions& o) {
            "standard deviation along the shorter side at least");
 }
 
-PlaneMap::PlaneMap(const PlaneMapOptions& options) : options_(options) {
-  for (Shard& shard : shards_) {
-    shard.fine.rebuild_table();
-    shard.coarse.rebuild_table();
-  }
-}
-
-inline std::size_t PlaneMap::Level::home(std::uint32_t key) const {
-  return spread(key) >> (32U - bits);
-}
-
-inline std::uint32_t PlaneMap::Level::find(std::uint32_t key) const {
-  const std::size_t mask = table.size() - 1;
-  for (std::size_t i = home(key);; i = (i + 1) & mask) {
-    const std::uint64_t entry = table[i];
-    if (entry == kFree) return kNone;
-    if (static_cast<std::uint32_t>(entry >> 32U) == key) return static_cast<std::uint32_t>(entry);
-  }
-}
-
-std::uint32_t PlaneMap::Level::find_or_add(std::uint32_t key, const CellNumber& number) {
-  const std::size_t mask = table.size() - 1;
-  std::size_t i = home(key);
-  for (; table[i] != kFree; i = (i + 1) & mask) {
-    if (static_cast<std::uint32_t>(table[i] >> 32U) == key) {
-      return static_cast<std::uint32_t>(table[i]);
-    }
-  }
-  const auto index = static_cast<std::uint32_t>(cold.size());
-  table[i] = std::uint64_t{key} << 32U | index;
-  cold.emplace_back();
-  planes.emplace_back();
-  numbers.push_back(number);
-  if (2 * cold.size() > table.size()) rebuild_table();
-  return index;
-}
-
-void PlaneMap::Level::rebuild_table() {
-  while (2 * cold.size() > std::size_t{1} << bits) ++bits;
-  table.assign(std::size_t{1} << bits, kFree);
-  const std::size_t mask = table.size() - 1;
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    const std::uint32_t key = cell_key(numbers[k].x, numbers[k].y, numbers[k].z);
-    std::size_t i = home(key);
-    while (table[i] != kFree) i = (i + 1) & mask;
-    table[i] = std::uint64_t{key} << 32U | k;
-  }
-}
+PlaneMap::PlaneMap(const PlaneMapOptions& options) : options_(options) {}
 
 void PlaneMap::insert(const LocalPoints& points, Workers& workers) {
   constexpr std::size_t kChunk = 4096;
@@ -147,10 +99,10 @@ void PlaneMap::collect_runs(const LocalPoints& points, std::size_t begin, std::s
 
 std::uint32_t PlaneMap::fine_cell(Shard& shard, const CellNumber& c) const {
   const std::size_t known = shard.fine.cold.size();
-  const std::uint32_t fine = shard.fine.find_or_add(cell_key(c.x, c.y, c.z), c);
+  const std::uint32_t fine = shard.fine.find_or_add(c);
   if (fine == known) {
     const CellNumber p{parent_of(c.x), parent_of(c.y), parent_of(c.z)};
-    shard.fine.planes[fine].parent = shard.coarse.find_or_add(cell_key(p.x, p.y, p.z), p);
+    shard.fine.planes[fine].parent = shard.coarse.find_or_add(p);
   }
   return fine;
 }
@@ -162,7 +114,7 @@ void PlaneMap::insert_runs(Shard& shard, const std::vector<Run>& runs) const {
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (i + kAhead < runs.size()) {
       const CellNumber& c = runs[i + kAhead].number;
-      __builtin_prefetch(&shard.fine.table[shard.fine.home(cell_key(c.x, c.y, c.z))]);
+      shard.fine.table.prefetch(cell_key(c.x, c.y, c.z));
     }
     shard.cells[i] = fine_cell(shard, runs[i].number);
   }
@@ -233,7 +185,7 @@ bool PlaneMap::find(const CellGrid& at, const RelativeCell& cell, Answer& answer
     const float offset = plane.d - plane.nx * mx - plane.ny * my - plane.nz * mz;
     answer = {plane.nx, plane.ny, plane.nz, offset, plane.variance};
   };
-  const std::uint32_t fine = shard.fine.find(cell_key(cx, cy, cz));
+  const std::uint32_t fine = shard.fine.table.find(cell_key(cx, cy, cz));
   std::uint32_t coarse = kNone;
   if (fine != kNone) {
     const PlaneCell& plane = shard.fine.planes[fine];
@@ -243,7 +195,7 @@ bool PlaneMap::find(const CellGrid& at, const RelativeCell& cell, Answer& answer
     }
     coarse = plane.parent;
   } else {
-    coarse = shard.coarse.find(cell_key(px, py, pz));
+    coarse = shard.coarse.table.find(cell_key(px, py, pz));
   }
   if (coarse == kNone || shard.coarse.planes[coarse].is_plane == 0) return false;
   // The parent's centre is that of its middle fine cell.
@@ -257,7 +209,16 @@ void PlaneMap::prefetch(const CellGrid& at, const RelativeCell& cell) const {
   const std::int32_t cy = cell.y + at.base[1];
   const std::int32_t cz = cell.z + at.base[2];
   const Shard& shard = shards_[shard_of(parent_of(cx), parent_of(cy), parent_of(cz))];
-  __builtin_prefetch(&shard.fine.table[shard.fine.home(cell_key(cx, cy, cz))]);
+  shard.fine.table.prefetch(cell_key(cx, cy, cz));
+}
+
+void PlaneMap::prefetch_plane(const CellGrid& at, const RelativeCell& cell) const {
+  const std::int32_t cx = cell.x + at.base[0];
+  const std::int32_t cy = cell.y + at.base[1];
+  const std::int32_t cz = cell.z + at.base[2];
+  const Shard& shard = shards_[shard_of(parent_of(cx), parent_of(cy), parent_of(cz))];
+  const std::uint32_t fine = shard.fine.table.find(cell_key(cx, cy, cz));
+  if (fine != kNone) __builtin_prefetch(&shard.fine.planes[fine]);
 }
 
 void PlaneMap::keep_near(const Eigen::Vector3d& centre_map, double radius_m, Workers& workers) {
@@ -266,34 +227,23 @@ void PlaneMap::keep_near(const Eigen::Vector3d& centre_map, double radius_m, Wor
     Level& coarse = shards_[s].coarse;
     Level& fine = shards_[s].fine;
     std::vector<std::uint32_t> moved_to(coarse.cold.size(), kNone);
-    const auto move = [](Level& level, std::size_t from, std::size_t to) {
-      level.cold[to] = level.cold[from];
-      level.planes[to] = level.planes[from];
-      level.numbers[to] = level.numbers[from];
-    };
-    const auto finish = [](Level& level, std::size_t kept) {
-      level.cold.resize(kept);
-      level.planes.resize(kept);
-      level.numbers.resize(kept);
-      level.rebuild_table();
-    };
     std::uint32_t kept = 0;
     for (std::uint32_t k = 0; k < coarse.cold.size(); ++k) {
       const CellNumber& c = coarse.numbers[k];
       const Eigen::Vector3d middle = coarse_m * Eigen::Vector3d(c.x + 0.5, c.y + 0.5, c.z + 0.5);
       if ((middle - centre_map).squaredNorm() > radius_m * radius_m) continue;
-      move(coarse, k, kept);
+      coarse.move(k, kept);
       moved_to[k] = kept++;
     }
-    finish(coarse, kept);
+    coarse.keep_first(kept);
     std::size_t fine_kept = 0;
     for (std::size_t k = 0; k < fine.cold.size(); ++k) {
       const std::uint32_t parent = moved_to[fine.planes[k].parent];
       if (parent == kNone) continue;
-      move(fine, k, fine_kept);
+      fine.move(k, fine_kept);
       fine.planes[fine_kept++].parent = parent;
     }
-    finish(fine, fine_kept);
+    fine.keep_first(fine_kept);
   });
 }
 
@@ -306,12 +256,7 @@ std::size_t PlaneMap::size() const {
 std::size_t PlaneMap::bytes() const {
   std::size_t bytes = 0;
   for (const Shard& shard : shards_) {
-    for (const Level* level : {&shard.fine, &shard.coarse}) {
-      bytes += level->table.capacity() * sizeof(std::uint64_t) +
-               level->cold.capacity() * sizeof(ColdCell) +
-               level->planes.capacity() * sizeof(PlaneCell) +
-               level->numbers.capacity() * sizeof(CellNumber);
-    }
+    bytes += shard.fine.bytes() + shard.coarse.bytes();
   }
   for (const auto& chunk : runs_) {
     for (const auto& runs : chunk) bytes += runs.capacity() * sizeof(Run);

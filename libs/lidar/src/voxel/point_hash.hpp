@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "traverse/lidar/voxel/cell_key.hpp"
+
 namespace traverse::lidar::voxel {
 
 /// The largest whole number not above `value`, for |value| < 2^31; SSE2 has no instruction for it.
@@ -13,16 +15,6 @@ inline std::int32_t floor_to_int(float value) {
   const auto whole = static_cast<std::int32_t>(value);
   return whole - static_cast<std::int32_t>(value < static_cast<float>(whole));
 }
-
-/// Cell coordinates packed in 32 bits, 11 for x and y, 10 for z: cells repeat after 2048 (1024)
-/// edges, so two cells with one key must never be alive together.
-inline std::uint32_t cell_key(std::int32_t x, std::int32_t y, std::int32_t z) {
-  return (static_cast<std::uint32_t>(x) & 2047U) << 21U |
-         (static_cast<std::uint32_t>(y) & 2047U) << 10U | (static_cast<std::uint32_t>(z) & 1023U);
-}
-
-/// Knuth's multiplicative hash: the high bits are the good ones.
-inline std::uint32_t spread(std::uint32_t key) { return key * 2654435761U; }
 
 /// A set of cells, open addressing with linear probing.
 class PointHash {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "voxel/lanes.hpp"
+
 namespace traverse::lidar::voxel {
 
 namespace {
@@ -33,6 +35,82 @@ void for_each_surface(const Row& row, const std::vector<std::uint8_t>& breaks, c
     ++i;
   }
   if (first < row.size) work(first, row.size - 1);
+}
+
+/// Points of the row that go on `spacing` metres from point i, at least one.
+std::size_t points_in(float spacing, const Row& row, std::size_t i) {
+  const float ex = row.x[i + kReach] - row.x[i - kReach];
+  const float ey = row.y[i + kReach] - row.y[i - kReach];
+  const float ez = row.z[i + kReach] - row.z[i - kReach];
+  constexpr float kShare = 1.0F / (2 * kReach);
+  const float step = std::sqrt(ex * ex + ey * ey + ez * ez) * kShare + 1e-4F;
+  const float points = spacing / step;
+  const auto whole = static_cast<std::int32_t>(points);
+  const std::int32_t ceiling =
+      whole + static_cast<std::int32_t>(static_cast<float>(whole) < points);
+  return static_cast<std::size_t>(std::max(1, ceiling));
+}
+
+/// Of the eleven values around `middle`; short sums, which do not wait for each other.
+float window_mean(const float* middle) {
+  const float* v = middle - kReach;
+  const float sum =
+      ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7])) + ((v[8] + v[9]) + v[10]);
+  return sum * (1.0F / (2 * kReach + 1));
+}
+
+/// Adds the chosen points to the surface: a planar one at the mean of its window.
+void place(const Row& row, const SamplingOptions& options, RowSamples& samples) {
+  const float flatness = to_float(options.flatness_m);
+  const float flatness_per_m = to_float(options.flatness_per_m);
+  SweepPoints& surface = samples.surface;
+  std::size_t to = surface.size();
+  surface.resize(to + samples.chosen.size());
+  samples.planar.resize(surface.size());
+  for (const std::uint32_t i : samples.chosen) {
+    const float mx = window_mean(row.x + i);
+    const float my = window_mean(row.y + i);
+    const float mz = window_mean(row.z + i);
+    const float dx = mx - row.x[i];
+    const float dy = my - row.y[i];
+    const float dz = mz - row.z[i];
+    const float limit = flatness + flatness_per_m * row.range[i];
+    const bool planar = dx * dx + dy * dy + dz * dz < limit * limit;
+    surface.x[to] = planar ? mx : row.x[i];
+    surface.y[to] = planar ? my : row.y[i];
+    surface.z[to] = planar ? mz : row.z[i];
+    surface.range[to] = row.range[i];
+    surface.source[to] = row.source_of(i);
+    samples.planar[to] = static_cast<std::uint8_t>(planar);
+    ++to;
+  }
+}
+
+/// Where neighbours are farther apart than base + per_m * range.
+TRAVERSE_AVX2_TOO
+void mark_steps(const float* __restrict x, const float* __restrict y, const float* __restrict z,
+                const float* __restrict range, std::size_t count, float base, float per_m,
+                std::uint8_t* __restrict breaks) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float dx = x[i + 1] - x[i];
+    const float dy = y[i + 1] - y[i];
+    const float dz = z[i + 1] - z[i];
+    const float limit = base + per_m * range[i];
+    breaks[i] = dx * dx + dy * dy + dz * dz > limit * limit ? kStep : kNoBreak;
+  }
+}
+
+/// Where neighbours lie on either side of the half line along (sx, sy).
+TRAVERSE_AVX2_TOO
+void mark_seam(const float* __restrict x, const float* __restrict y, std::size_t count, float sx,
+               float sy, std::uint8_t* __restrict breaks) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float side = sx * y[i] - sy * x[i];
+    const float next_side = sx * y[i + 1] - sy * x[i + 1];
+    const float along = sx * x[i] + sy * y[i];
+    const int crossed = static_cast<int>(side * next_side <= 0) & static_cast<int>(along > 0);
+    breaks[i] = static_cast<std::uint8_t>(breaks[i] | (crossed * kSeam));
+  }
 }
 
 }  // namespace
@@ -68,82 +146,34 @@ void find_breaks(const Row& row, const SamplingOptions& options, const Seam& sea
   breaks.resize(row.size);
   if (row.size < 2) return;
   const std::size_t n = row.size - 1;
-  const float* x = row.x;
-  const float* y = row.y;
-  const float* z = row.z;
-  const float* r = row.range;
-  std::uint8_t* out = breaks.data();
-  const float base = to_float(options.break_m);
-  const float per_m = to_float(options.break_per_m);
-  for (std::size_t i = 0; i < n; ++i) {
-    const float dx = x[i + 1] - x[i];
-    const float dy = y[i + 1] - y[i];
-    const float dz = z[i + 1] - z[i];
-    const float limit = base + per_m * r[i];
-    out[i] = dx * dx + dy * dy + dz * dz > limit * limit ? kStep : kNoBreak;
-  }
+  mark_steps(row.x, row.y, row.z, row.range, n, to_float(options.break_m),
+             to_float(options.break_per_m), breaks.data());
   if (seam.by_azimuth) {
-    const float sx = seam.x;
-    const float sy = seam.y;
-    for (std::size_t i = 0; i < n; ++i) {
-      const float side = sx * y[i] - sy * x[i];
-      const float next_side = sx * y[i + 1] - sy * x[i + 1];
-      const float along = sx * x[i] + sy * y[i];
-      const int crossed = static_cast<int>(side * next_side <= 0) & static_cast<int>(along > 0);
-      out[i] = static_cast<std::uint8_t>(out[i] | (crossed << 1));
-    }
+    mark_seam(row.x, row.y, n, seam.x, seam.y, breaks.data());
   } else if (row.time != nullptr) {
     for (std::size_t i = 0; i < n; ++i) {
       const int jump = static_cast<int>(std::abs(row.time[i + 1] - row.time[i]) > seam.time_jump_s);
-      out[i] = static_cast<std::uint8_t>(out[i] | (jump << 1));
+      breaks[i] = static_cast<std::uint8_t>(breaks[i] | (jump * kSeam));
     }
   }
 }
 
 void sample_surfaces(const Row& row, const std::vector<std::uint8_t>& breaks,
                      const SamplingOptions& options, float nearest, RowSamples& samples) {
-  constexpr float kWindow = 2 * kReach + 1;
   const float most = to_float(options.max_range_m);
   const float spacing = to_float(options.spacing_m);
-  const float flatness = to_float(options.flatness_m);
-  const float flatness_per_m = to_float(options.flatness_per_m);
-  const float* x = row.x;
-  const float* y = row.y;
-  const float* z = row.z;
+  samples.chosen.clear();
   for_each_surface(row, breaks, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first + kReach; i + kReach <= last;) {
-      const float range = row.range[i];
-      if (range >= most || range < nearest) {
+      if (row.range[i] >= most || row.range[i] < nearest) {
         ++i;
         continue;
       }
-      float mx = 0;
-      float my = 0;
-      float mz = 0;
-      for (std::size_t k = i - kReach; k <= i + kReach; ++k) {
-        mx += x[k];
-        my += y[k];
-        mz += z[k];
-      }
-      mx /= kWindow;
-      my /= kWindow;
-      mz /= kWindow;
-      const float dx = mx - x[i];
-      const float dy = my - y[i];
-      const float dz = mz - z[i];
-      const float limit = flatness + flatness_per_m * range;
-      const bool planar = dx * dx + dy * dy + dz * dz < limit * limit;
-      samples.surface.push_back(planar ? mx : x[i], planar ? my : y[i], planar ? mz : z[i], range,
-                                row.source_of(i));
-      samples.planar.push_back(static_cast<std::uint8_t>(planar));
-
-      const float ex = x[i + kReach] - x[i - kReach];
-      const float ey = y[i + kReach] - y[i - kReach];
-      const float ez = z[i + kReach] - z[i - kReach];
-      const float step = std::sqrt(ex * ex + ey * ey + ez * ez) / (2 * kReach) + 1e-4F;
-      i += std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(spacing / step)));
+      samples.chosen.push_back(static_cast<std::uint32_t>(i));
+      i += points_in(spacing, row, i);
     }
   });
+  place(row, options, samples);
 }
 
 void sample_edges(const Row& row, const std::vector<std::uint8_t>& breaks,

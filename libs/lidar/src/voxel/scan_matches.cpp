@@ -116,13 +116,13 @@ void associate(const SweepSample& sample, const LocalPoints& planar, const Local
     const std::size_t end = std::min(planar.size(), (c + 1) * kChunk);
     std::size_t row = c * kChunk;
     for (std::size_t i = c * kChunk; i < end; ++i) {
-      if (i + kAhead < end && !matches.plane_answers[i + kAhead].asked) {
-        const std::size_t k = i + kAhead;
-        map.planes().prefetch(grid, grid.cell(planar.x[k], planar.y[k], planar.z[k]));
-      }
-      const PlaneMap::Answer* found =
-          ask(map.planes(), grid, grid.cell(planar.x[i], planar.y[i], planar.z[i]),
-              matches.plane_answers[i]);
+      const auto cell_of = [&](std::size_t k) {
+        return grid.cell(planar.x[k], planar.y[k], planar.z[k]);
+      };
+      const auto is_new = [&](std::size_t k) { return k < end && !matches.plane_answers[k].asked; };
+      if (is_new(i + 2 * kAhead)) map.planes().prefetch(grid, cell_of(i + 2 * kAhead));
+      if (is_new(i + kAhead)) map.planes().prefetch_plane(grid, cell_of(i + kAhead));
+      const PlaneMap::Answer* found = ask(map.planes(), grid, cell_of(i), matches.plane_answers[i]);
       if (found == nullptr) continue;
       const PlaneMap::Answer& plane = *found;
       const float r =

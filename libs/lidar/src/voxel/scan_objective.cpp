@@ -5,13 +5,13 @@
 #include <cmath>
 #include <vector>
 
+#include "voxel/lanes.hpp"
 #include "voxel/workers.hpp"
 
 namespace traverse::lidar::voxel {
 
 namespace {
 
-constexpr std::size_t kLanes = 8;
 constexpr std::size_t kBlock = 1024;  // rows; their sums are floats, everything above doubles
 
 // Places in the sums of a block: 21 of H (upper triangle by rows), 6 of g, then
@@ -48,105 +48,128 @@ struct FloatPose {
   }
 };
 
-/// Rows of a block at a pose: lever arm m, normal n, residual r, squared normalised residual e2,
-/// weight and share s of the interval. Padded with zeros to whole lanes.
-struct Block {
-  std::size_t count = 0;
-  alignas(32) std::array<float, kBlock> mx, my, mz, nx, ny, nz, r, e2, weight, s;
+/// Points at a pose: lever arms m from the lidar, in map axes, and shares s of the interval.
+struct MovedPoints {
+  Lanes mx, my, mz, s;
 };
 
-void fill(const PlaneRows& rows, std::size_t begin, std::size_t count, const FloatPose& pose,
-          Block& block) {
-  block.count = count;
-  const float* __restrict x = rows.x.data() + begin;
-  const float* __restrict y = rows.y.data() + begin;
-  const float* __restrict z = rows.z.data() + begin;
-  const float* __restrict time = rows.time.data() + begin;
-  const float* __restrict nx = rows.nx.data() + begin;
-  const float* __restrict ny = rows.ny.data() + begin;
-  const float* __restrict nz = rows.nz.data() + begin;
-  const float* __restrict d = rows.d.data() + begin;
-  const float* __restrict weight = rows.weight.data() + begin;
-  const FloatPose p = pose;
-  for (std::size_t i = 0; i < count; ++i) {
-    float qx = x[i];
-    float qy = y[i];
-    float qz = z[i];
-    p.motion.apply(time[i], qx, qy, qz);
-    const float mx = p.r[0] * qx + p.r[1] * qy + p.r[2] * qz;
-    const float my = p.r[3] * qx + p.r[4] * qy + p.r[5] * qz;
-    const float mz = p.r[6] * qx + p.r[7] * qy + p.r[8] * qz;
-    const float r = nx[i] * (mx + p.t[0]) + ny[i] * (my + p.t[1]) + nz[i] * (mz + p.t[2]) + d[i];
-    block.mx[i] = mx;
-    block.my[i] = my;
-    block.mz[i] = mz;
-    block.nx[i] = nx[i];
-    block.ny[i] = ny[i];
-    block.nz[i] = nz[i];
-    block.r[i] = r;
-    block.weight[i] = weight[i];
-    block.e2[i] = r * r * weight[i];
-    block.s[i] = time[i] * p.per_interval;
-  }
-  for (std::size_t i = count; i % kLanes != 0; ++i) {
-    for (auto* values : {&block.mx, &block.my, &block.mz, &block.nx, &block.ny, &block.nz, &block.r,
-                         &block.e2, &block.weight, &block.s}) {
-      (*values)[i] = 0;
-    }
+/// One row of each of these points.
+struct Rows {
+  Lanes nx, ny, nz;
+  Lanes r;       ///< residual, metres
+  Lanes weight;  ///< zero beyond the last row
+  Lanes e2;      ///< squared residual over its variance
+};
+
+[[gnu::always_inline]] inline void move(const PlaneRows& rows, std::size_t i, const FloatPose& pose,
+                                        MovedPoints& points) {
+  Lanes x;
+  Lanes y;
+  Lanes z;
+  Lanes time;
+  load(rows.x, i, x);
+  load(rows.y, i, y);
+  load(rows.z, i, z);
+  load(rows.time, i, time);
+  pose.motion.apply(time, x, y, z);
+  points.mx = pose.r[0] * x + pose.r[1] * y + pose.r[2] * z;
+  points.my = pose.r[3] * x + pose.r[4] * y + pose.r[5] * z;
+  points.mz = pose.r[6] * x + pose.r[7] * y + pose.r[8] * z;
+  points.s = time * pose.per_interval;
+}
+
+[[gnu::always_inline]] inline void measure(const PlaneRows& from, std::size_t i,
+                                           const MovedPoints& points, const FloatPose& pose,
+                                           Rows& rows) {
+  Lanes d;
+  load(from.nx, i, rows.nx);
+  load(from.ny, i, rows.ny);
+  load(from.nz, i, rows.nz);
+  load(from.d, i, d);
+  load(from.weight, i, rows.weight);
+  rows.r = rows.nx * (points.mx + pose.t[0]) + rows.ny * (points.my + pose.t[1]) +
+           rows.nz * (points.mz + pose.t[2]) + d;
+  rows.e2 = rows.r * rows.r * rows.weight;
+}
+
+/// What a match is worth: `share` of the cost; each of its rows is `unit` of a match.
+struct MatchWorth {
+  float k2;  ///< squared width of the kernel
+  float share;
+  float unit;
+};
+
+[[gnu::always_inline]] inline void accumulate(const MovedPoints& points, const Rows& rows,
+                                              const FloatPose& p, const MatchWorth& worth,
+                                              Lanes (&sums)[kSums]) {
+  const Lanes u = worth.k2 / (worth.k2 + rows.e2);
+  const Lanes w = worth.share * rows.weight * u * u;
+  const Lanes counted = rows.weight > 0 ? Lanes{} + worth.unit : Lanes{};
+  sums[kCost] += worth.share * counted * rows.e2 * u;
+  sums[kWeight] += worth.unit * w;
+  sums[kSquared] += rows.r * rows.r;
+  sums[kInliers] += rows.e2 <= worth.k2 ? counted : Lanes{};
+
+  const Lanes jx = points.my * rows.nz - points.mz * rows.ny;
+  const Lanes jy = points.mz * rows.nx - points.mx * rows.nz;
+  const Lanes jz = points.mx * rows.ny - points.my * rows.nx;
+  const Lanes f = 1 + points.s;
+  const Lanes a = 0.5F * points.s * f;
+  const Lanes J[6] = {
+      f * jx + a * (jy * p.w[2] - jz * p.w[1] + rows.ny * p.v[2] - rows.nz * p.v[1]),
+      f * jy + a * (jz * p.w[0] - jx * p.w[2] + rows.nz * p.v[0] - rows.nx * p.v[2]),
+      f * jz + a * (jx * p.w[1] - jy * p.w[0] + rows.nx * p.v[1] - rows.ny * p.v[0]),
+      f * rows.nx + a * (rows.ny * p.w[2] - rows.nz * p.w[1]),
+      f * rows.ny + a * (rows.nz * p.w[0] - rows.nx * p.w[2]),
+      f * rows.nz + a * (rows.nx * p.w[1] - rows.ny * p.w[0])};
+  std::size_t k = 0;
+  for (std::size_t row = 0; row < 6; ++row) {
+    const Lanes wj = w * J[row];
+    for (std::size_t col = row; col < 6; ++col) sums[k++] += wj * J[col];
+    sums[kGradient + row] += wj * rows.r;
   }
 }
 
-/// \param share of a match in the cost  \param unit of a match that a row is: half for a line's
-void accumulate(const Block& b, const FloatPose& pose, float k2, float share, float unit,
-                Sums& sums) {
-  float acc[kSums][kLanes] = {};
-  const FloatPose& p = pose;
-  for (std::size_t i = 0; i < b.count; i += kLanes) {
-    float w[kLanes];
-    float J[6][kLanes];
-    for (std::size_t l = 0; l < kLanes; ++l) {
-      const float e2 = b.e2[i + l];
-      const float u = k2 / (k2 + e2);
-      w[l] = share * b.weight[i + l] * u * u;
-      const float counted = b.weight[i + l] > 0 ? unit : 0;
-      acc[kCost][l] += counted * share * e2 * u;
-      acc[kWeight][l] += unit * w[l];
-      acc[kSquared][l] += b.r[i + l] * b.r[i + l];
-      acc[kInliers][l] += e2 <= k2 ? counted : 0;
-    }
-    for (std::size_t l = 0; l < kLanes; ++l) {
-      const float mx = b.mx[i + l];
-      const float my = b.my[i + l];
-      const float mz = b.mz[i + l];
-      const float nx = b.nx[i + l];
-      const float ny = b.ny[i + l];
-      const float nz = b.nz[i + l];
-      const float jx = my * nz - mz * ny;
-      const float jy = mz * nx - mx * nz;
-      const float jz = mx * ny - my * nx;
-      const float s = b.s[i + l];
-      const float f = 1 + s;
-      const float a = 0.5F * s * f;
-      J[0][l] = f * jx + a * (jy * p.w[2] - jz * p.w[1] + ny * p.v[2] - nz * p.v[1]);
-      J[1][l] = f * jy + a * (jz * p.w[0] - jx * p.w[2] + nz * p.v[0] - nx * p.v[2]);
-      J[2][l] = f * jz + a * (jx * p.w[1] - jy * p.w[0] + nx * p.v[1] - ny * p.v[0]);
-      J[3][l] = f * nx + a * (ny * p.w[2] - nz * p.w[1]);
-      J[4][l] = f * ny + a * (nz * p.w[0] - nx * p.w[2]);
-      J[5][l] = f * nz + a * (nx * p.w[1] - ny * p.w[0]);
-    }
-    std::size_t k = 0;
-    for (std::size_t row = 0; row < 6; ++row) {
-      float wj[kLanes];
-      for (std::size_t l = 0; l < kLanes; ++l) wj[l] = w[l] * J[row][l];
-      for (std::size_t col = row; col < 6; ++col, ++k) {
-        for (std::size_t l = 0; l < kLanes; ++l) acc[k][l] += wj[l] * J[col][l];
-      }
-      for (std::size_t l = 0; l < kLanes; ++l) acc[kGradient + row][l] += wj[l] * b.r[i + l];
-    }
-  }
+/// The sum over the lanes, in order.
+void collect(const Lanes (&lanes)[kSums], Sums& sums) {
   for (std::size_t k = 0; k < kSums; ++k) {
-    for (std::size_t l = 0; l < kLanes; ++l) sums[k] += acc[k][l];
+    sums[k] = 0;
+    for (std::size_t l = 0; l < kLanes; ++l) sums[k] += lanes[k][l];
   }
+}
+
+TRAVERSE_AVX2_TOO
+void sum_planes(const PlaneRows& planes, std::size_t begin, std::size_t end, const FloatPose& pose,
+                const MatchWorth& worth, Sums& sums) {
+  Lanes lanes[kSums] = {};
+  for (std::size_t i = begin; i < end; i += kLanes) {
+    MovedPoints points;
+    Rows rows;
+    move(planes, i, pose, points);
+    measure(planes, i, points, pose, rows);
+    accumulate(points, rows, pose, worth, lanes);
+  }
+  collect(lanes, sums);
+}
+
+/// The two rows of a line are of one point and share one weight in the kernel.
+TRAVERSE_AVX2_TOO
+void sum_lines(const PlaneRows& line_1, const PlaneRows& line_2, std::size_t begin, std::size_t end,
+               const FloatPose& pose, const MatchWorth& worth, Sums& sums) {
+  Lanes lanes[kSums] = {};
+  for (std::size_t i = begin; i < end; i += kLanes) {
+    MovedPoints points;
+    Rows first;
+    Rows second;
+    move(line_1, i, pose, points);
+    measure(line_1, i, points, pose, first);
+    measure(line_2, i, points, pose, second);
+    first.e2 += second.e2;
+    second.e2 = first.e2;
+    accumulate(points, first, pose, worth, lanes);
+    accumulate(points, second, pose, worth, lanes);
+  }
+  collect(lanes, sums);
 }
 
 }  // namespace
@@ -180,24 +203,13 @@ NormalEquations evaluate(const ScanMatches& matches, const MotionModel& motion,
   workers.run(sums.size(), [&](std::size_t b) {
     if (b < plane_blocks) {
       const std::size_t begin = b * kBlock;
-      Block block;
-      fill(matches.planes, begin, std::min(kBlock, matches.planes.size() - begin), pose, block);
-      accumulate(block, pose, k2, 1, 1, sums[b]);
-      return;
+      const std::size_t end = std::min(begin + kBlock, matches.planes.size());
+      sum_planes(matches.planes, begin, end, pose, {k2, 1, 1}, sums[b]);
+    } else {
+      const std::size_t begin = (b - plane_blocks) * kBlock;
+      const std::size_t end = std::min(begin + kBlock, lines);
+      sum_lines(matches.line_1, matches.line_2, begin, end, pose, {k2, line_share, 0.5F}, sums[b]);
     }
-    const std::size_t begin = (b - plane_blocks) * kBlock;
-    const std::size_t count = std::min(kBlock, lines - begin);
-    Block first;
-    Block second;
-    fill(matches.line_1, begin, count, pose, first);
-    fill(matches.line_2, begin, count, pose, second);
-    for (std::size_t i = 0; i < count; ++i) {
-      const float joint = first.e2[i] + second.e2[i];
-      first.e2[i] = joint;
-      second.e2[i] = joint;
-    }
-    accumulate(first, pose, k2, line_share, 0.5F, sums[b]);
-    accumulate(second, pose, k2, line_share, 0.5F, sums[b]);
   });
 
   Sums total{};

@@ -7,6 +7,8 @@
 
 #include "traverse/sensors/rings.hpp"
 
+#include "voxel/lanes.hpp"
+
 namespace traverse::lidar::voxel {
 
 namespace {
@@ -18,6 +20,7 @@ struct RangeCounts {
   std::size_t origin = 0, near = 0, far = 0, usable = 0;
 };
 
+TRAVERSE_AVX2_TOO
 RangeCounts measure_ranges(const sensors::LidarScan& scan, const sensors::LidarProfile& profile,
                            std::vector<float>& range) {
   const std::size_t n = scan.size();

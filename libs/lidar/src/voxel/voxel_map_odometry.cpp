@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "traverse/lidar/voxel/row_factor_kinds.hpp"
 #include "traverse/lidar/voxel/used_points.hpp"
 #include "traverse/sensors/sweep_timing.hpp"
 
@@ -67,6 +68,8 @@ CorrectedScan VoxelMapOdometry::used_scan(const sensors::LidarScan& scan,
   }
   return used;
 }
+
+std::vector<optimization::FactorUse> VoxelMapOdometry::factors() const { return row_factors(); }
 
 std::vector<Frame> VoxelMapOdometry::begin() {
   begun_ = true;

@@ -12,7 +12,8 @@ namespace traverse::lidar {
 enum class Sweep { kDeskewed, kSwept };
 
 /// The factors of registration for the check of their Jacobians: line vector, line scalar, plane
-/// signed, plane absolute, of deskewed and of swept points, derived for both perturbations.
+/// signed, plane absolute, of deskewed and of swept points, derived for both perturbations; and the
+/// rows of the voxel-map odometry (voxel/row_factor_kinds.hpp).
 std::vector<optimization::FactorKind> factor_kinds();
 
 /// The two of them that solve_pose works with: that of lines and that of planes.

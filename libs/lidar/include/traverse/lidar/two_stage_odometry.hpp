@@ -68,6 +68,9 @@ class TwoStageOdometry final : public Odometry {
     return std::make_unique<TwoStageOdometry>(*this);
   }
 
+  /// Those of both stages: swept ones where the first moves each point by its share.
+  std::vector<optimization::FactorUse> factors() const override;
+
   /// What the second stage has corrected so far.
   const geometry::Pose3& T_map_odom() const { return T_map_odom_; }
 

@@ -6,6 +6,7 @@
 
 #include "traverse/config/binder.hpp"
 #include "traverse/lidar/voxel/cell_grid.hpp"
+#include "traverse/lidar/voxel/cell_table.hpp"
 #include "traverse/lidar/voxel/local_points.hpp"
 #include "traverse/lidar/voxel/moments.hpp"
 
@@ -23,7 +24,7 @@ void bind(config::Binder& binder, LineMapOptions& options);
 /// A map of lines: for each cell of a grid, the line through the edge points that fell into it.
 class LineMap {
  public:
-  explicit LineMap(const LineMapOptions& options) : options_(options), table_(1U << bits_, kFree) {}
+  explicit LineMap(const LineMapOptions& options) : options_(options) {}
 
   /// A cell counts as seen once more by each insert().
   void insert(const LocalPoints& points);
@@ -58,15 +59,11 @@ class LineMap {
     FittedLine line;  ///< relative to the centre of the cell
     bool is_line = false;
   };
-  static constexpr std::uint64_t kFree = ~std::uint64_t{0};
-
   std::uint32_t find_or_add(std::int32_t x, std::int32_t y, std::int32_t z);
   void refit(std::uint32_t cell);
-  void rebuild_table();
 
   LineMapOptions options_;
-  unsigned bits_ = 10;
-  std::vector<std::uint64_t> table_;  // key << 32 | index
+  CellTable table_;
   std::vector<ColdCell> cold_;
   std::vector<LineCell> lines_;
   std::vector<std::uint32_t> touched_;

@@ -26,18 +26,20 @@ struct SweepMotion {
 
   explicit SweepMotion(const geometry::Twist& velocity);
 
-  void apply(float time, float& x, float& y, float& z) const {
-    const float ax = w[1] * z - w[2] * y + v[0];
-    const float ay = w[2] * x - w[0] * z + v[1];
-    const float az = w[0] * y - w[1] * x + v[2];
-    const float bx = w[1] * az - w[2] * ay;
-    const float by = w[2] * ax - w[0] * az;
-    const float bz = w[0] * ay - w[1] * ax;
-    const float cx = w[1] * bz - w[2] * by;
-    const float cy = w[2] * bx - w[0] * bz;
-    const float cz = w[0] * by - w[1] * bx;
-    const float second = 0.5F * time * time;
-    const float third = time * second * (1.0F / 3);
+  /// \tparam Value float, or a vector of floats
+  template <typename Value>
+  void apply(const Value& time, Value& x, Value& y, Value& z) const {
+    const Value ax = w[1] * z - w[2] * y + v[0];
+    const Value ay = w[2] * x - w[0] * z + v[1];
+    const Value az = w[0] * y - w[1] * x + v[2];
+    const Value bx = w[1] * az - w[2] * ay;
+    const Value by = w[2] * ax - w[0] * az;
+    const Value bz = w[0] * ay - w[1] * ax;
+    const Value cx = w[1] * bz - w[2] * by;
+    const Value cy = w[2] * bx - w[0] * bz;
+    const Value cz = w[0] * by - w[1] * bx;
+    const Value second = 0.5F * time * time;
+    const Value third = time * second * (1.0F / 3);
     x += time * ax + second * bx + third * cx;
     y += time * ay + second * by + third * cy;
     z += time * az + second * bz + third * cz;

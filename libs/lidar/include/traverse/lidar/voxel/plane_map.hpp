@@ -7,6 +7,7 @@
 
 #include "traverse/config/binder.hpp"
 #include "traverse/lidar/voxel/cell_grid.hpp"
+#include "traverse/lidar/voxel/cell_table.hpp"
 #include "traverse/lidar/voxel/local_points.hpp"
 #include "traverse/lidar/voxel/moments.hpp"
 
@@ -52,8 +53,10 @@ class PlaneMap {
   /// \returns false if neither the cell nor its parent has a plane.
   bool find(const CellGrid& grid, const RelativeCell& cell, Answer& answer) const;
 
-  /// Starts to fetch what find() will read for the cell: the map is larger than the cache.
+  /// Starts to fetch where find() will look the cell up: the map is larger than the cache.
   void prefetch(const CellGrid& grid, const RelativeCell& cell) const;
+  /// Looks the cell up and starts to fetch its plane; a while after prefetch().
+  void prefetch_plane(const CellGrid& grid, const RelativeCell& cell) const;
 
   CellGrid grid(const Eigen::Vector3d& origin_map) const { return {origin_map, options_.cell_m}; }
   std::size_t size() const;   ///< fine cells, with a plane or without
@@ -68,18 +71,17 @@ class PlaneMap {
   struct CellNumber {
     std::int32_t x, y, z;
   };
-  /// Cells of one size in one shard: a hash from keys to indices and, by index, what is known.
+  /// Cells of one size in one shard: a table of their indices and, by index, what is known.
   struct Level {
-    std::vector<std::uint64_t> table;  ///< key << 32 | index; kFree
-    unsigned bits = 8;
+    CellTable table;
     std::vector<ColdCell> cold;
     std::vector<PlaneCell> planes;
     std::vector<CellNumber> numbers;
 
-    std::size_t home(std::uint32_t key) const;  ///< the slot where a search for the key begins
-    std::uint32_t find(std::uint32_t key) const;
-    std::uint32_t find_or_add(std::uint32_t key, const CellNumber& number);
-    void rebuild_table();
+    std::uint32_t find_or_add(const CellNumber& number);
+    void move(std::size_t from, std::size_t to);
+    void keep_first(std::size_t cells);
+    std::size_t bytes() const;
   };
   struct Shard {
     Level fine, coarse;

@@ -40,9 +40,10 @@ void find_breaks(const Row& row, const SamplingOptions& options, const Seam& sea
 
 /// What the walk along one or more rows found. As recorded: neither corrected nor timed.
 struct RowSamples {
-  SweepPoints surface;               ///< where a surface goes on for five points on both sides
-  std::vector<std::uint8_t> planar;  ///< one a surface point: its place is the mean of the window
-  SweepPoints edges;                 ///< ends of surfaces before a background, and poles
+  SweepPoints surface;                ///< where a surface goes on for five points on both sides
+  std::vector<std::uint8_t> planar;   ///< one a surface point: its place is the mean of the window
+  SweepPoints edges;                  ///< ends of surfaces before a background, and poles
+  std::vector<std::uint32_t> chosen;  ///< surface points of the last row; kept for its memory
 
   void reserve(std::size_t points);
 };

@@ -52,6 +52,8 @@ class VoxelMapOdometry final : public Odometry {
   std::unique_ptr<Odometry> clone() const override {
     return std::make_unique<VoxelMapOdometry>(*this);
   }
+  /// The rows of row_factor_kinds(), of which the cost is the sum.
+  std::vector<optimization::FactorUse> factors() const override;
 
   const VoxelMap& map() const { return map_; }
 
