@@ -1,6 +1,9 @@
 #include "traverse/lidar/degeneracy.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
+
+#include "traverse/lidar/point_motion.hpp"
 
 #include "geometry/random_motion.hpp"
 
@@ -57,6 +60,35 @@ TEST(Observability, TheDegeneratePartOfAStepIsRemovedAndOnlyThat) {
   geometry::Twist expected = step;
   expected[3] = 0;
   EXPECT_LT((result.well_observed(step) - expected).norm(), 1e-9);
+}
+
+TEST(Observability, APointThatSawPartOfTheSweepCountsWithThatPart) {
+  // The information from differences of n . q along the twist, with the part of the motion.
+  RandomMotion random(4);
+  const geometry::Pose3 pose = random.pose(0.5, 2);
+  Matches matches = planes_with_normals({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  for (PlaneMatch& match : matches.planes) match.fraction = random.uniform(0, 1);
+  const auto result = observability(matches, pose, kLeast);
+
+  Matrix6 information = Matrix6::Zero();
+  constexpr double kStep = 1e-6;
+  for (const PlaneMatch& match : matches.planes) {
+    const auto distance = [&](const geometry::Twist& twist) {
+      const geometry::Pose3 moved = part_of(pose * geometry::exp_se3(twist), match.fraction);
+      return match.plane.normal.dot(moved * match.p_lidar);
+    };
+    Vector6 row;
+    for (int k = 0; k < 6; ++k) {
+      const geometry::Twist step = kStep * geometry::Twist::Unit(k);
+      row[k] = (distance(step) - distance(-step)) / (2 * kStep);
+    }
+    row.head<3>() /= result.rotation_scale_m;
+    information += row * row.transpose() / static_cast<double>(matches.size());
+  }
+  const Vector6 expected = Eigen::SelfAdjointEigenSolver<Matrix6>(information).eigenvalues();
+  EXPECT_LT((result.eigenvalues - expected).norm(), 1e-7);
+  for (PlaneMatch& match : matches.planes) match.fraction = 0;
+  EXPECT_EQ(observability(matches, pose, kLeast).degenerate, 6) << "points that saw no motion";
 }
 
 TEST(Observability, WithoutMatchesNothingIsDetermined) {

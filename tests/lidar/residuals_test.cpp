@@ -77,5 +77,29 @@ TEST(PlaneResidual, IsSignedAndItsDerivativeIsTheNormal) {
   EXPECT_EQ(J, plane.normal.transpose());
 }
 
+TEST(PlaneDistanceResidual, IsTheSignedOneFoldedAtZero) {
+  RandomMotion random(5);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Plane plane{random.vector(1).normalized(), random.uniform(-5, 5)};
+    const Eigen::Vector3d q = random.vector(10);
+    Eigen::RowVector3d J;
+    Eigen::RowVector3d J_signed;
+    const double r = plane_distance_residual(plane, q, &J);
+    const double r_signed = plane_residual(plane, q, &J_signed);
+    EXPECT_EQ(r, std::abs(r_signed));
+    EXPECT_EQ(r * J, r_signed * J_signed);  // the same gradient of the cost
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d d = kStep * Eigen::Vector3d::Unit(k);
+      const double numeric =
+          (plane_distance_residual(plane, q + d) - plane_distance_residual(plane, q - d)) /
+          (2 * kStep);
+      EXPECT_NEAR(J[k], numeric, 1e-9);
+    }
+  }
+  Eigen::RowVector3d J;
+  EXPECT_EQ(plane_distance_residual({{0, 0, 1}, -2}, {5, 6, 2}, &J), 0);
+  EXPECT_EQ(J, Eigen::RowVector3d(0, 0, 1)) << "at the kink the derivative from above";
+}
+
 }  // namespace
 }  // namespace traverse::lidar

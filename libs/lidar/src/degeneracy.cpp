@@ -5,6 +5,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "traverse/lidar/point_motion.hpp"
+
 namespace traverse::lidar {
 
 namespace {
@@ -42,21 +44,30 @@ Observability observability(const Matches& matches, const geometry::Pose3& T_map
   }
   result.rotation_scale_m = median_range(matches);
   const Eigen::Matrix3d R_lidar_map = T_map_lidar.rotation.transpose();
+  const Eigen::Quaterniond q = T_map_lidar.quaternion();
+  const Eigen::Vector3d& t = T_map_lidar.translation;
 
   // A unit normal n of the map sees the body twist as [p x n, n] in body axes. A line is seen
   // through the two normals across it: I - u u' in place of n n'.
   Matrix6 information = Matrix6::Zero();
-  const auto add = [&](const Eigen::Vector3d& p, const Eigen::Vector3d& n_map) {
+  const auto add = [&](const auto& match, const Eigen::Vector3d& n_map) {
     const Eigen::Vector3d n = R_lidar_map * n_map;
     Vector6 row;
-    row << p.cross(n) / result.rotation_scale_m, n;
+    if (match.fraction == 1) {
+      row << match.p_lidar.cross(n) / result.rotation_scale_m, n;
+    } else {
+      const PointMotion motion(match.p_lidar, match.fraction, optimization::Perturbation::kRight);
+      const Eigen::RowVector3d by_rotation =
+          motion.by_rotation(Eigen::RowVector3d(n_map.transpose()), motion.at(q, t));
+      row << by_rotation.transpose() / result.rotation_scale_m, match.fraction * n;
+    }
     information.selfadjointView<Eigen::Lower>().rankUpdate(row);
   };
-  for (const auto& match : matches.planes) add(match.p_lidar, match.plane.normal);
+  for (const auto& match : matches.planes) add(match, match.plane.normal);
   for (const auto& match : matches.lines) {
     const Eigen::Vector3d e = match.line.direction.unitOrthogonal();
-    add(match.p_lidar, e);
-    add(match.p_lidar, match.line.direction.cross(e));
+    add(match, e);
+    add(match, match.line.direction.cross(e));
   }
   information /= static_cast<double>(matches.size());
 

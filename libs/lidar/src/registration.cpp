@@ -1,14 +1,18 @@
 #include "traverse/lidar/registration.hpp"
 
+#include <array>
 #include <cmath>
-#include <deque>
+#include <string_view>
+#include <utility>
 
 #include <ceres/loss_function.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
-#include "point_factor.hpp"
-#include "rotation_manifold.hpp"
+#include "traverse/lidar/point_motion.hpp"
+#include "traverse/optimization/rotation_manifold.hpp"
+
+#include "pose_factors.hpp"
 
 namespace traverse::lidar {
 
@@ -32,27 +36,11 @@ ceres::Problem::Options problem_options() {
   return options;
 }
 
-/// Factors stay where they are made (a deque), since Ceres keeps their addresses.
-template <typename Factor, typename Residual, typename MatchList, typename Shape>
-std::deque<Factor> make_factors(const MatchList& matches, const Shape& shape) {
-  std::deque<Factor> factors;
-  for (const auto& match : matches) factors.emplace_back(match.p_lidar, Residual{shape(match)});
-  return factors;
-}
-
-template <typename Factor>
-void add_factors(ceres::Problem& problem, std::deque<Factor>& factors, ceres::LossFunction& loss,
-                 PoseBlocks& blocks) {
-  for (Factor& factor : factors) {
-    problem.AddResidualBlock(&factor, &loss, blocks.q.coeffs().data(), blocks.t.data());
-  }
-}
-
 double residual_of(const LineMatch& match, const geometry::Pose3& T) {
-  return line_distance_residual(match.line, T * match.p_lidar);
+  return line_distance_residual(match.line, part_of(T, match.fraction) * match.p_lidar);
 }
 double residual_of(const PlaneMatch& match, const geometry::Pose3& T) {
-  return plane_residual(match.plane, T * match.p_lidar);
+  return plane_residual(match.plane, part_of(T, match.fraction) * match.p_lidar);
 }
 
 void summarise_residuals(const Matches& matches, const SolverOptions& options,
@@ -79,6 +67,13 @@ void bind(config::Binder& b, SolverOptions& o) {
       {{"vector", LineForm::kVector}, {"scalar", LineForm::kDistance}}};
   b.choice("line_residual", o.line_form, kLineForms,
            "vector u x (q - c), rank 2, or scalar |u x (q - c)|, rank 1");
+  static constexpr std::array<std::pair<std::string_view, PlaneForm>, 2> kPlaneForms{
+      {{"signed", PlaneForm::kSigned}, {"absolute", PlaneForm::kAbsolute}}};
+  b.choice("plane_residual", o.plane_form, kPlaneForms, "n . q + d, or its absolute value");
+  b.choice("derivative", o.derivative, optimization::kDerivativeNames,
+           "formulas, dual numbers, or central differences");
+  b.choice("perturbation", o.perturbation, optimization::kPerturbationNames,
+           "side on which rotations are moved: R Exp(d), or Exp(d) R");
   b.integer("iterations", o.iterations, Range::between(1, 1000),
             "Levenberg-Marquardt steps in one solve");
   b.number("huber_m", o.huber_m, Range::positive(), "residuals beyond count linearly");
@@ -98,27 +93,15 @@ SolveResult solve_pose(const Matches& matches, const geometry::Pose3& guess_T_ma
   }
 
   PoseBlocks blocks(guess_T_map_lidar);
-  RotationManifold manifold;
+  optimization::RotationManifold manifold(options.perturbation);
   ceres::HuberLoss loss(options.huber_m);
-  const auto line_of = [](const LineMatch& match) { return match.line; };
-  const auto plane_of = [](const PlaneMatch& match) { return match.plane; };
-  std::deque<PointFactor<LineVectorResidual>> line_vectors;
-  std::deque<PointFactor<LineDistanceResidual>> line_distances;
-  if (options.line_form == LineForm::kVector) {
-    line_vectors =
-        make_factors<PointFactor<LineVectorResidual>, LineVectorResidual>(matches.lines, line_of);
-  } else {
-    line_distances = make_factors<PointFactor<LineDistanceResidual>, LineDistanceResidual>(
-        matches.lines, line_of);
-  }
-  auto planes = make_factors<PointFactor<PlaneResidual>, PlaneResidual>(matches.planes, plane_of);
-
+  const PoseFactors factors(matches, options);
   ceres::Problem problem(problem_options());
   problem.AddParameterBlock(blocks.q.coeffs().data(), 4, &manifold);
   problem.AddParameterBlock(blocks.t.data(), 3);
-  add_factors(problem, line_vectors, loss, blocks);
-  add_factors(problem, line_distances, loss, blocks);
-  add_factors(problem, planes, loss, blocks);
+  for (ceres::CostFunction* factor : factors.cost_functions()) {
+    problem.AddResidualBlock(factor, &loss, blocks.q.coeffs().data(), blocks.t.data());
+  }
 
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;

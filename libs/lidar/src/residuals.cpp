@@ -6,12 +6,6 @@
 
 namespace traverse::lidar {
 
-namespace {
-
-constexpr double kOnTheLine = 1e-9;  // metres
-
-}  // namespace
-
 Eigen::Vector3d line_vector_residual(const Line& line, const Eigen::Vector3d& q,
                                      Eigen::Matrix3d* dr_dq) {
   if (dr_dq != nullptr) *dr_dq = geometry::hat(line.direction);
@@ -23,7 +17,7 @@ double line_distance_residual(const Line& line, const Eigen::Vector3d& q,
   const Eigen::Vector3d offset = line.direction.cross(q - line.point);
   const double distance = offset.norm();
   if (dr_dq != nullptr) {
-    if (distance < kOnTheLine) {
+    if (distance < kOnTheLine_m) {
       dr_dq->setZero();
     } else {
       *dr_dq = offset.cross(line.direction).transpose() / distance;  // o' [u]x = (o x u)'
@@ -35,6 +29,14 @@ double line_distance_residual(const Line& line, const Eigen::Vector3d& q,
 double plane_residual(const Plane& plane, const Eigen::Vector3d& q, Eigen::RowVector3d* dr_dq) {
   if (dr_dq != nullptr) *dr_dq = plane.normal.transpose();
   return plane.normal.dot(q) + plane.offset;
+}
+
+double plane_distance_residual(const Plane& plane, const Eigen::Vector3d& q,
+                               Eigen::RowVector3d* dr_dq) {
+  const double signed_distance = plane_residual(plane, q, dr_dq);
+  if (signed_distance >= 0) return signed_distance;
+  if (dr_dq != nullptr) *dr_dq = -*dr_dq;
+  return -signed_distance;
 }
 
 }  // namespace traverse::lidar

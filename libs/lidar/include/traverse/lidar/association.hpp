@@ -19,6 +19,8 @@ struct LineMatch {
   std::uint32_t feature = 0;  ///< index of the edge point in the registration set
   Eigen::Vector3d p_lidar;
   Line line;
+  double fraction = 1;  ///< share of the sweep's motion that this point has seen (LOAM's s);
+                        ///< solve_pose moves it by Exp(s Log R), s t (PointMotion)
 };
 
 /// A point of the scan and the plane of the map that it should lie in.
@@ -26,6 +28,8 @@ struct PlaneMatch {
   std::uint32_t feature = 0;  ///< index of the planar point in the registration set
   Eigen::Vector3d p_lidar;
   Plane plane;
+  double fraction = 1;  ///< share of the sweep's motion that this point has seen (LOAM's s);
+                        ///< solve_pose moves it by Exp(s Log R), s t (PointMotion)
 };
 
 struct Matches {

@@ -18,7 +18,8 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 /// rotation multiplied by the median range of the matched points, so that all six axes are lengths
 /// and their eigenvalues compare, and divided by the number of matches: an eigenvalue is the mean
 /// squared share of a residual that a unit motion in its direction makes, between 0 and 1 for
-/// translations. (Zhang, Kaess and Singh, "On degeneracy of optimization-based state estimation
+/// translations. A match with a fraction below 1 counts with that part of the twist that moves its
+/// point. (Zhang, Kaess and Singh, "On degeneracy of optimization-based state estimation
 /// problems", ICRA 2016, compare raw eigenvalues, which grow with the number of points.)
 struct Observability {
   Vector6 eigenvalues = Vector6::Zero();     ///< ascending

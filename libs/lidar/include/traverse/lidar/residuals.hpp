@@ -23,6 +23,9 @@ struct Plane {
 Eigen::Vector3d line_vector_residual(const Line& line, const Eigen::Vector3d& q,
                                      Eigen::Matrix3d* dr_dq = nullptr);
 
+/// Closer than this to a line a point counts as on it.
+inline constexpr double kOnTheLine_m = 1e-9;
+
 /// r = |u x (q - c)|, metres. dr/dq = (u x (q - c))' [u]x / r, of rank 1; on the line itself, where
 /// the derivative does not exist, it is set to zero (a stationary point of the cost r^2).
 double line_distance_residual(const Line& line, const Eigen::Vector3d& q,
@@ -31,5 +34,10 @@ double line_distance_residual(const Line& line, const Eigen::Vector3d& q,
 /// r = n . q + d, metres, signed. dr/dq = n'.
 double plane_residual(const Plane& plane, const Eigen::Vector3d& q,
                       Eigen::RowVector3d* dr_dq = nullptr);
+
+/// r = |n . q + d|, metres. dr/dq = sign(n . q + d) n', with sign(0) = 1: r^2, r dr/dq and the
+/// outer product of dr/dq are those of the signed residual, so least squares takes the same steps.
+double plane_distance_residual(const Plane& plane, const Eigen::Vector3d& q,
+                               Eigen::RowVector3d* dr_dq = nullptr);
 
 }  // namespace traverse::lidar
