@@ -18,11 +18,11 @@ Preintegration::Preintegration(const ImuNoise& noise, const Eigen::Vector3d& gyr
                                const Eigen::Vector3d& accelerometer_bias)
     : noise_(noise), gyro_bias_(gyro_bias), accelerometer_bias_(accelerometer_bias) {}
 
-void Preintegration::add(const Eigen::Vector3d& angular_rate,
-                         const Eigen::Vector3d& specific_force, double seconds) {
+void Preintegration::add(const Eigen::Vector3d& angular_rate, const Eigen::Vector3d& specific_force,
+                         double seconds) {
   if (!(seconds > 0) || !std::isfinite(seconds)) {
-    throw std::invalid_argument(
-        fmt::format("an IMU sample must last more than 0 s to be integrated, this lasts {}", seconds));
+    throw std::invalid_argument(fmt::format(
+        "an IMU sample must last more than 0 s to be integrated, this lasts {}", seconds));
   }
   if (!angular_rate.allFinite() || !specific_force.allFinite()) {
     throw std::invalid_argument("an IMU sample with a number that is not finite");

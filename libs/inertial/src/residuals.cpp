@@ -40,8 +40,7 @@ Residual<9> inertial_residual(const Preintegration& imu, const Eigen::Vector3d& 
   const Eigen::Matrix3d Ri_t = i.rotation().transpose();
   const Eigen::Matrix3d Rj = j.rotation();
   const Eigen::Vector3d dv = Ri_t * (j.v_map - i.v_map - gravity_map * T);
-  const Eigen::Vector3d dp =
-      Ri_t * (j.p_map - i.p_map - i.v_map * T - 0.5 * T * T * gravity_map);
+  const Eigen::Vector3d dp = Ri_t * (j.p_map - i.p_map - i.v_map * T - 0.5 * T * T * gravity_map);
 
   Residual<9> r;
   const Eigen::Vector3d r_R = log_so3(measured.rotation.transpose() * Ri_t * Rj);
