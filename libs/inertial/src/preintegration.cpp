@@ -19,7 +19,7 @@ Preintegration::Preintegration(const ImuNoise& noise, const Eigen::Vector3d& gyr
     : noise_(noise), gyro_bias_(gyro_bias), accelerometer_bias_(accelerometer_bias) {}
 
 void Preintegration::add(const Eigen::Vector3d& angular_rate, const Eigen::Vector3d& specific_force,
-                         double seconds) {
+                         double seconds, double noise_scale) {
   if (!(seconds > 0) || !std::isfinite(seconds)) {
     throw std::invalid_argument(fmt::format(
         "an IMU sample must last more than 0 s to be integrated, this lasts {}", seconds));
@@ -27,8 +27,15 @@ void Preintegration::add(const Eigen::Vector3d& angular_rate, const Eigen::Vecto
   if (!angular_rate.allFinite() || !specific_force.allFinite()) {
     throw std::invalid_argument("an IMU sample with a number that is not finite");
   }
-  samples_.push_back({angular_rate, specific_force, seconds});
+  samples_.push_back({angular_rate, specific_force, seconds, noise_scale});
   integrate(samples_.back());
+}
+
+void Preintegration::split_single_sample() {
+  if (samples_.size() != 1) return;
+  samples_.front().seconds /= 2;
+  samples_.push_back(samples_.front());
+  reintegrate(Eigen::Vector3d(gyro_bias_), Eigen::Vector3d(accelerometer_bias_));
 }
 
 void Preintegration::integrate(const Sample& sample) {
@@ -48,8 +55,9 @@ void Preintegration::integrate(const Sample& sample) {
   A.block<3, 3>(6, 0) = -0.5 * dt * dt * R_a;
   A.block<3, 3>(6, 3) = dt * Eigen::Matrix3d::Identity();
   covariance_ = (A * covariance_ * A.transpose()).eval();
-  const double gyro = noise_.gyro_density * noise_.gyro_density * dt;
-  const double accelerometer = noise_.accelerometer_density * noise_.accelerometer_density * dt;
+  const double scale = sample.noise_scale * sample.noise_scale * dt;
+  const double gyro = noise_.gyro_density * noise_.gyro_density * scale;
+  const double accelerometer = noise_.accelerometer_density * noise_.accelerometer_density * scale;
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
   covariance_.block<3, 3>(0, 0) += gyro * J * J.transpose();
   covariance_.block<3, 3>(3, 3) += accelerometer * I;  // R I R' = I

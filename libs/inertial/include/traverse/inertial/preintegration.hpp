@@ -39,9 +39,13 @@ class Preintegration {
                  const Eigen::Vector3d& accelerometer_bias);
 
   /// Adds a stretch of `seconds` of constant readings [rad/s], [m/s^2].
+  /// \param noise_scale  by how much noisier than usual the readings are: of a gap, many times
   /// \throws std::invalid_argument unless seconds > 0 and every number is finite.
   void add(const Eigen::Vector3d& angular_rate, const Eigen::Vector3d& specific_force,
-           double seconds);
+           double seconds, double noise_scale = 1);
+
+  /// Makes one sample two of half the length, so that the covariance has full rank.
+  void split_single_sample();
 
   double seconds() const { return seconds_; }
   std::size_t samples() const { return samples_.size(); }
@@ -70,6 +74,7 @@ class Preintegration {
     Eigen::Vector3d angular_rate;
     Eigen::Vector3d specific_force;
     double seconds;
+    double noise_scale;
   };
 
   void integrate(const Sample& sample);
