@@ -8,6 +8,8 @@ class App;
 /// that does the work. Errors are thrown and reported by main(); no algorithm stands here.
 namespace traverse::app {
 
+void add_bench_factors(CLI::App& app);
+void add_check_jacobians(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_evaluate(CLI::App& app);
 void add_info(CLI::App& app);

@@ -1,14 +1,9 @@
-#include <cstdio>
-#include <exception>
-
 #include <CLI/CLI.hpp>
 
 #include "commands.hpp"
+#include "exit_status.hpp"
 
 namespace {
-
-constexpr int kFailure = 1;
-constexpr int kUsage = 2;
 
 constexpr const char* kExamples = R"(Examples:
   traverse info DRIVE                              what is in a recording
@@ -32,14 +27,7 @@ int main(int argc, char** argv) {
   traverse::app::add_convert(app);
   traverse::app::add_simulate(app);
   traverse::app::add_pipelines(app);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    const int status = app.exit(error);
-    return status == 0 ? 0 : kUsage;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "traverse: %s\n", error.what());
-    return kFailure;
-  }
-  return 0;
+  traverse::app::add_check_jacobians(app);
+  traverse::app::add_bench_factors(app);
+  return traverse::app::exit_status(app, argc, argv);
 }

@@ -12,10 +12,12 @@
 #include <CLI/CLI.hpp>
 
 #include "traverse/config/settings.hpp"
+#include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 
 #include "command_line.hpp"
 #include "commands.hpp"
+#include "factor_measurement.hpp"
 #include "installed_files.hpp"
 #include "progress_bar.hpp"
 #include "recording_options.hpp"
@@ -60,12 +62,23 @@ struct RunArguments {
   int threads = 1;
   bool report = true;
   bool hash = true;
+  bool bench_factors = false;
 };
 
 std::size_t expected_frames(const dataset::Source& source, const pipeline::RunOptions& options) {
   const std::size_t scans = source.info().expected_scans;
   if (scans <= options.first) return 0;
   return std::min(scans - 1, options.last) - options.first + 1;
+}
+
+/// What the derivatives of the factors cost on a frame of the run that has a map behind it.
+void measure_factors(dataset::Source& source, const pipeline::RunRecord& record,
+                     const pipeline::RunFolder& folder) {
+  if (record.frames_used < 2) return;
+  const std::size_t frame = record.first_frame + std::min(kFramesBefore, record.frames_used - 1);
+  source.rewind();
+  files::write_text(folder.factor_bench(), to_json(measure_on_recording(source, record.first_frame,
+                                                                        frame, kFactorRepeats)));
 }
 
 /// A wrong preset or setting is wrong usage, told before anything is opened.
@@ -111,6 +124,7 @@ void run_recording(RunArguments& arguments, const std::vector<std::string>& comm
   observer.stage = [&](const std::string&) { bar.finish(); };
   const pipeline::RunRecord record = pipeline::run(*source, pipeline, folder, options, observer);
 
+  if (arguments.bench_factors) measure_factors(*source, record, folder);
   if (arguments.report) write_report_with_progress(folder.path, installed.templates);
   print_run_summary(record, folder, arguments.report);
   if (!record.evaluation_error.empty()) {
@@ -160,6 +174,8 @@ void add_run(CLI::App& app) {
   run->add_option("--reference-frame", arguments->reference_frame,
                   "what moves along the reference: body, lidar or camera")
       ->check(CLI::IsMember({"body", "lidar", "camera"}));
+  run->add_flag("--bench-factors", arguments->bench_factors,
+                "measure analytic, automatic and numeric derivatives on a frame of the run");
   run->add_flag("!--no-report", arguments->report, "no pictures and no report.html");
   run->add_flag("!--no-hash", arguments->hash, "do not compute the recording's SHA-256");
   run->callback([arguments, run] {

@@ -20,12 +20,12 @@ struct ProgramResult {
   std::string everything() const { return output + messages; }
 };
 
-/// Runs `traverse ARGUMENTS` in a shell.
-inline ProgramResult run_program(const std::string& arguments) {
+/// Runs `traverse ARGUMENTS`, or another program, in a shell.
+inline ProgramResult run_program(const std::string& arguments,
+                                 const std::string& program = TRAVERSE_PROGRAM) {
   const TemporaryFolder folder;
-  const std::string command = std::string(TRAVERSE_PROGRAM) + " " + arguments + " > '" +
-                              (folder / "out").string() + "' 2> '" + (folder / "err").string() +
-                              "'";
+  const std::string command = program + " " + arguments + " > '" + (folder / "out").string() +
+                              "' 2> '" + (folder / "err").string() + "'";
   ProgramResult result;
   const int status = std::system(command.c_str());
   if (WIFEXITED(status)) result.status = WEXITSTATUS(status);

@@ -66,6 +66,23 @@ TEST(PointMotion, DerivativesMatchDifferencesOnBothSides) {
   }
 }
 
+TEST(PointMotion, TwistsOfTheWholePoseMoveThePointAsInTheTable) {
+  // T Exp(d, tau): dq = -R [p]x d + R tau.  Exp(d, tau) T: dq = -[q]x d + tau.
+  RandomMotion random(5);
+  const geometry::Pose3 T = random.pose(3, 10);
+  const Eigen::Vector3d p = random.vector(20);
+  Eigen::Matrix<double, 3, 6> body;
+  body << -T.rotation * geometry::hat(p), T.rotation;
+  Eigen::Matrix<double, 3, 6> map;
+  map << -geometry::hat(T * p), Eigen::Matrix3d::Identity();
+  for (int k = 0; k < 6; ++k) {
+    const geometry::Pose3 step = geometry::exp_se3(kStep * geometry::Twist::Unit(k));
+    const geometry::Pose3 back = step.inverse();
+    EXPECT_LT((body.col(k) - ((T * step) * p - (T * back) * p) / (2 * kStep)).norm(), 1e-8);
+    EXPECT_LT((map.col(k) - ((step * T) * p - (back * T) * p) / (2 * kStep)).norm(), 1e-8);
+  }
+}
+
 TEST(PointMotion, TheSidesDifferByTheRotation) {
   // dq/dd of the left times R is that of the right, since R Exp(d) = Exp(R d) R.
   RandomMotion random(4);

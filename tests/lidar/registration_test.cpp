@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "traverse/lidar/point_motion.hpp"
+
 #include "geometry/random_motion.hpp"
 #include "lidar/room.hpp"
 
@@ -49,6 +51,39 @@ TEST(SolvePose, FindsTheTruePoseInARoomFromAPerturbedGuess) {
       EXPECT_GT(result.inlier_share, 0.999);
     }
   }
+}
+
+TEST(SolvePose, FindsTheMotionOfASweepFromPointsThatSawPartsOfIt) {
+  RandomMotion random(5);
+  const geometry::Pose3 truth = random.pose(0.3, 2);
+  Matches matches;
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    const double s = random.uniform(0, 1);
+    const Eigen::Vector3d p = random.vector(20);
+    const Eigen::Vector3d q = part_of(truth, s) * p;
+    const Eigen::Vector3d u = random.vector(1).normalized();
+    if (i % 2 == 0) {
+      matches.lines.push_back({i, p, Line{q + random.uniform(-1, 1) * u, u}, s});
+    } else {
+      matches.planes.push_back({i, p, Plane{u, -u.dot(q)}, s});
+    }
+  }
+  for (const auto& [name, derivative] : optimization::kDerivativeNames) {
+    for (const LineForm form : {LineForm::kVector, LineForm::kDistance}) {
+      SolverOptions options;
+      options.line_form = form;
+      options.derivative = derivative;
+      options.iterations = 50;
+      const SolveResult result = solve_pose(matches, truth * random.pose(0.02, 0.2), options);
+      EXPECT_LT(distance(result.T_map_lidar, truth), 1e-5) << name;
+      EXPECT_LT(result.residual_rms_m, 1e-5) << name;
+      EXPECT_EQ(result.inlier_share, 1) << name;
+    }
+  }
+  for (auto& match : matches.lines) match.fraction = 1;
+  for (auto& match : matches.planes) match.fraction = 1;
+  EXPECT_GT(distance(solve_pose(matches, truth, SolverOptions{}).T_map_lidar, truth), 0.01)
+      << "the fractions were needed";
 }
 
 TEST(SolvePose, WithoutEndWallsThePredictionStandsAlongTheAxis) {

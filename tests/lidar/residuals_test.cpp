@@ -1,5 +1,6 @@
 #include "traverse/lidar/residuals.hpp"
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "geometry/random_motion.hpp"
@@ -58,6 +59,27 @@ TEST(LineDistanceResidual, IsTheLengthOfTheVectorAndItsDerivativeMatchesDifferen
       EXPECT_NEAR(J[k], numeric, 1e-8);
     }
   }
+}
+
+TEST(LineResiduals, HaveOneCostAndOneGradientButNotOneRank) {
+  RandomMotion random(6);
+  const Line line = random_line(random);
+  const Eigen::Vector3d& u = line.direction;
+  const Eigen::Vector3d q = random.vector(10);
+  const Eigen::Vector3d from_line = q - line.point;
+  const Eigen::Vector3d h = from_line - u.dot(from_line) * u;  // the perpendicular to the point
+  Eigen::Matrix3d J;
+  Eigen::RowVector3d j;
+  const Eigen::Vector3d r = line_vector_residual(line, q, &J);
+  const double d = line_distance_residual(line, q, &j);
+  EXPECT_NEAR(r.squaredNorm(), d * d, 1e-12);
+  EXPECT_LT((J.transpose() * r - j.transpose() * d).norm(), 1e-12);
+  EXPECT_LT((J.transpose() * r - h).norm(), 1e-12);
+  EXPECT_LT((j.transpose() - h.normalized()).norm(), 1e-12);
+  EXPECT_LT((J.transpose() * J - (Eigen::Matrix3d::Identity() - u * u.transpose())).norm(), 1e-12);
+  const auto rank = [](const Eigen::Matrix3d& M) { return M.fullPivLu().rank(); };
+  EXPECT_EQ(rank(J.transpose() * J), 2);
+  EXPECT_EQ(rank(j.transpose() * j), 1);
 }
 
 TEST(LineDistanceResidual, IsGuardedOnTheLineItself) {

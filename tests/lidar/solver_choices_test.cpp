@@ -94,7 +94,8 @@ geometry::Pose3 disturbed(const geometry::Pose3& guess) {
 const FrameCorrespondences& simulated_frame() {
   static const FrameCorrespondences kFrame = [] {
     const testing::SimulatedDrive street(simulation::street(60, 1), 3, 5);
-    return correspondences_of_last(street.scans, street.scanner.profile, without_speed_search());
+    return correspondences_of_last(street.scans, street.scanner.profile, false,
+                                   without_speed_search());
   }();
   return kFrame;
 }
@@ -126,7 +127,7 @@ class SolverChoicesOnKitti : public ::testing::Test {
       ASSERT_TRUE(measurement.has_value());
       scans.push_back(*std::get<std::shared_ptr<const sensors::LidarScan>>(*measurement));
     }
-    frame_ = correspondences_of_last(scans, *source->info().rig.sensors.front().lidar,
+    frame_ = correspondences_of_last(scans, *source->info().rig.sensors.front().lidar, false,
                                      without_speed_search());
   }
 

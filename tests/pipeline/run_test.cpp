@@ -13,6 +13,7 @@
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/text_file.hpp"
+#include "traverse/optimization/jacobian_audit.hpp"
 #include "traverse/pipeline/frame_table.hpp"
 
 #include "file_size_limit.hpp"
@@ -64,7 +65,9 @@ class KnowingEstimator : public Estimator {
   }
   std::string points_are() const override { return "as made"; }
   std::vector<Decision> decisions() const override { return {{"deskew", "off"}}; }
+  std::vector<optimization::FactorUse> factors() const override { return uses; }
 
+  std::vector<optimization::FactorUse> uses;
   std::optional<geometry::Stamp> fail_at;
 
  private:
@@ -147,6 +150,7 @@ TEST_F(RunTest, WritesTheWholeFolderWithEveryFrameOnce) {
                            run_folder_.sample_scan(), run_folder_.evaluation()}) {
     EXPECT_TRUE(std::filesystem::is_regular_file(file)) << file;
   }
+  EXPECT_FALSE(std::filesystem::exists(run_folder_.jacobians())) << "it uses no factors";
   EXPECT_EQ(FrameTable::read_csv(run_folder_.frames()).rows().size(), 20U);
   const auto trajectory =
       dataset::read_trajectory(run_folder_.trajectory(), dataset::TrajectoryFormat::kTum);
@@ -158,6 +162,16 @@ TEST_F(RunTest, WritesTheWholeFolderWithEveryFrameOnce) {
   EXPECT_EQ(record()["frames"]["used"], 20);
   EXPECT_EQ(record()["timing_ms"]["frame_median"], 5);
   EXPECT_EQ(record()["recording"]["bytes"], 3);
+}
+
+TEST_F(RunTest, ChecksTheJacobiansOfTheFactorsThatTheEstimatorUses) {
+  estimator_->uses = {{"plane absolute", optimization::Perturbation::kLeft}};
+  run_all();
+  const auto audit = optimization::audit_from_json(files::read_text(run_folder_.jacobians()));
+  ASSERT_EQ(audit.factors.size(), 1U);
+  EXPECT_EQ(audit.factors[0].factor, "plane absolute");
+  EXPECT_EQ(audit.factors[0].perturbation, optimization::Perturbation::kLeft);
+  EXPECT_TRUE(audit.passed());
 }
 
 TEST_F(RunTest, TakesTheFramesAskedForAndNumbersThemAsInTheRecording) {

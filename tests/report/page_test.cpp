@@ -13,6 +13,7 @@
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/text_file.hpp"
+#include "traverse/optimization/jacobian_audit.hpp"
 #include "traverse/pipeline/frame_table.hpp"
 #include "traverse/pipeline/run_folder.hpp"
 #include "traverse/pipeline/run_record.hpp"
@@ -124,6 +125,20 @@ TEST(Page, TellsWhatIsNotAsItShouldBe) {
   EXPECT_THAT(page, HasSubstr("with 1 of its settings changed"));
 }
 
+TEST(Page, CarriesTheCheckOfTheJacobians) {
+  const MadeRun run(0.1);
+  EXPECT_THAT(run.page(), Not(HasSubstr("id=\"factors\"")));
+  optimization::FactorAudit factor;
+  factor.factor = "line vector";
+  factor.blocks = {{"rotation", 27, {1e-14, 1e-15, 3}, {1, 0.5, 4}, false}};
+  const pipeline::RunFolder files{run.folder.path()};
+  files::write_text(files.jacobians(), optimization::to_json({{}, {factor}}));
+  const std::string page = run.page();
+  EXPECT_THAT(page, HasSubstr("id=\"jacobians\""));
+  EXPECT_THAT(page, HasSubstr("<td>FAIL</td>"));
+  EXPECT_THAT(page, HasSubstr("A factor of this run has a wrong derivative")) << "in the verdict";
+}
+
 TEST(Page, WithoutAReferenceThereIsNoErrorSection) {
   const std::string page = MadeRun(0.1, false).page();
   EXPECT_THAT(page, HasSubstr("no reference to compare with"));
@@ -150,6 +165,10 @@ TEST(RunReport, NamesTheFileThatIsMissingOrDamaged) {
     }
     return std::string("no error");
   };
+  files::write_text(files.factor_bench(), "{\"frame\": 3}");
+  EXPECT_EQ(error(), "factor_bench.json");
+  files::write_text(files.jacobians(), "{}");
+  EXPECT_EQ(error(), "jacobians.json");
   files::write_text(files.evaluation(), "{\"ape\": 3}");
   EXPECT_EQ(error(), "evaluation.json");
   files::write_text(files.record(), "{");

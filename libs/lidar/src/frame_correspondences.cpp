@@ -65,11 +65,12 @@ void make_swept(const ScanFeatures& features, const geometry::Twist& velocity,
 
 FrameCorrespondences correspondences_of_last(std::span<const sensors::LidarScan> scans,
                                              const sensors::LidarProfile& profile,
+                                             bool motion_compensated,
                                              const ScanToMapOdometryOptions& options) {
   if (scans.size() < 2) {
     throw std::invalid_argument("correspondences need a scan and at least one before it");
   }
-  ScanToMapOdometry odometry(options, profile, false);
+  ScanToMapOdometry odometry(options, profile, motion_compensated);
   std::vector<Frame> frames;
   const auto take = [&](const std::vector<Frame>& known) {
     frames.insert(frames.end(), known.begin(), known.end());
@@ -89,7 +90,7 @@ FrameCorrespondences correspondences_of_last(std::span<const sensors::LidarScan>
   ScanToMap map = odometry.map();
   StageTimes ms;
   result.matches = map.align(features, result.guess_T_map_lidar, last.velocity, 1, ms).matches;
-  make_swept(features, last.velocity, result);
+  if (odometry.deskew_note() == "on") make_swept(features, last.velocity, result);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "traverse/lidar/factor_kinds.hpp"
 #include "traverse/sensors/sweep_timing.hpp"
 
 #include "stopwatch.hpp"
@@ -67,6 +68,10 @@ std::vector<Frame> ScanToMapOdometry::process(const sensors::LidarScan& scan) {
 
 std::vector<Frame> ScanToMapOdometry::finish() {
   return begun_ || held_back_.empty() ? std::vector<Frame>{} : begin();
+}
+
+std::vector<optimization::FactorUse> ScanToMapOdometry::factors() const {
+  return factors_of(options_.solver);
 }
 
 CorrectedScan ScanToMapOdometry::used_scan(const sensors::LidarScan& scan,

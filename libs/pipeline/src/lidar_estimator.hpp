@@ -28,6 +28,7 @@ class LidarEstimator final : public Estimator {
                      bool with_classes) const override;
   std::string points_are() const override;
   std::vector<Decision> decisions() const override;
+  std::vector<optimization::FactorUse> factors() const override { return odometry_->factors(); }
 
  private:
   std::vector<PoseFrame> to_body(const std::vector<lidar::Frame>& frames) const;

@@ -21,6 +21,8 @@
 #include "traverse/files/digest.hpp"
 #include "traverse/mapping/keyframe_map.hpp"
 #include "traverse/mapping/voxel_map.hpp"
+#include "traverse/optimization/jacobian_audit.hpp"
+#include "traverse/pipeline/factor_kinds.hpp"
 #include "traverse/pipeline/frame_table.hpp"
 
 namespace traverse::pipeline {
@@ -192,6 +194,15 @@ void evaluate_run(const dataset::Source& source, Results& results, const RunFold
   files::write_text(folder.evaluation(), evaluation::to_json(evaluation));
 }
 
+/// The Jacobians of the factors that the estimator solves with, checked in this very program.
+void check_jacobians(const Estimator& estimator, const RunFolder& folder) {
+  const auto uses = estimator.factors();
+  if (uses.empty()) return;
+  const auto kinds = optimization::selected(factor_kinds(), uses);
+  const auto audit = optimization::audit_jacobians(kinds, optimization::AuditOptions{});
+  files::write_text(folder.jacobians(), optimization::to_json(audit));
+}
+
 void fill_results(const Results& results, RunRecord& record) {
   record.frames_used = results.frames().rows().size();
   record.sample_frame = results.sample_frame();
@@ -265,6 +276,7 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
     write_results(source, results, folder);
     observer.stage("evaluation");
     evaluate_run(source, results, folder, record);
+    check_jacobians(*pipeline.estimator, folder);
     if (options.hash_recording) {
       observer.stage("digest of the recording");
       const files::ContentId id = files::content_id(source.info().path);

@@ -9,8 +9,9 @@ namespace traverse::pipeline {
 
 void RunFolder::prepare() const {
   files::make_writable_folder(path);
-  for (const auto& place : {record(), trajectory(), reference(), frames(), map_points(),
-                            simple_map(), sample_scan(), evaluation(), images(), report()}) {
+  for (const auto& place :
+       {record(), trajectory(), reference(), frames(), map_points(), simple_map(), sample_scan(),
+        evaluation(), jacobians(), factor_bench(), images(), report()}) {
     std::error_code failure;
     std::filesystem::remove_all(place, failure);
     if (failure) throw files::OutputError(place, failure.message());

@@ -38,7 +38,7 @@ std::string make_page(const RunData& run, const std::vector<Figure>& figures,
   page.set("date", run.date());
   page.set("style", files::read_text(templates / "run.css"));
   page.set("script", files::read_text(templates / "run.js"));
-  for (const std::string name : {"figure", "table"}) {
+  for (const std::string name : {"figure", "table", "factors"}) {
     const std::string text = files::read_text(templates / (name + ".html"));
     page.set(name, kainjow::mustache::partial([text] { return text; }));
   }
@@ -46,6 +46,7 @@ std::string make_page(const RunData& run, const std::vector<Figure>& figures,
   add_accuracy(run, page);
   add_health(run, page);
   add_timing(run, page);
+  add_factors(run, page);
   add_provenance(run, page);
   add_figures(figures, page);
 

@@ -28,6 +28,18 @@ evaluation::Evaluation read_evaluation(const std::filesystem::path& file) {
   }
 }
 
+/// What `parse` makes of the file, if there is one. `kind` says what it should be.
+template <typename Value>
+std::optional<Value> read_if_there(const std::filesystem::path& file, const std::string& kind,
+                                   Value (*parse)(const std::string&)) {
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  try {
+    return parse(files::read_text(file));
+  } catch (const std::runtime_error& error) {
+    throw files::InputError(file, files::Place::whole_file(), kind, error.what());
+  }
+}
+
 }  // namespace
 
 RunData read_run(const std::filesystem::path& folder) {
@@ -49,6 +61,10 @@ RunData read_run(const std::filesystem::path& folder) {
   if (std::filesystem::exists(files.sample_scan())) {
     run.sample_scan = dataset::read_point_cloud(files.sample_scan());
   }
+  run.jacobians =
+      read_if_there(files.jacobians(), "a check of Jacobians", optimization::audit_from_json);
+  run.factor_bench = read_if_there(files.factor_bench(), "a measurement of factors",
+                                   lidar::factor_bench_from_json);
   return run;
 }
 

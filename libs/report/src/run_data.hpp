@@ -9,6 +9,8 @@
 #include "traverse/dataset/point_cloud_file.hpp"
 #include "traverse/evaluation/evaluate.hpp"
 #include "traverse/geometry/trajectory.hpp"
+#include "traverse/lidar/factor_bench.hpp"
+#include "traverse/optimization/jacobian_audit.hpp"
 #include "traverse/pipeline/frame_table.hpp"
 
 namespace traverse::report {
@@ -23,6 +25,8 @@ struct RunData {
   std::optional<geometry::Trajectory> reference;
   dataset::PointCloud map;
   std::optional<dataset::PointCloud> sample_scan;
+  std::optional<optimization::JacobianAudit> jacobians;
+  std::optional<lidar::FactorBench> factor_bench;
 
   std::string recording_name() const { return record.at("recording").at("name"); }
   std::string pipeline_name() const { return record.at("pipeline"); }

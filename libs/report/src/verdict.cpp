@@ -195,6 +195,10 @@ std::vector<Notice> notices(const RunData& run) {
                                 degenerate, run.frames.rows().size())});
   }
   add_gap_notice(run, list);
+  if (run.jacobians && !run.jacobians->passed()) {
+    list.push_back(
+        {"fail", "Jacobians", "A factor of this run has a wrong derivative; see Factors."});
+  }
   if (list.empty()) {
     list.push_back({"good", "Healthy",
                     "every frame was registered, no direction was degenerate, no record was "

@@ -18,15 +18,17 @@ struct FrameCorrespondences {
 
   /// The same pairs as LOAM's scan-to-scan stage has them: points as they were measured, each with
   /// its share of the sweep's motion; lines and planes in the frame of the lidar at the begin of
-  /// the sweep. Empty if the times of the points are not known.
+  /// the sweep. Empty if scans are not deskewed or the times of the points are not known.
   Matches swept;
   geometry::Pose3 guess_T_begin_end;  ///< motion over the sweep, predicted
 };
 
 /// Leads scan-to-map odometry through all scans but the last, and associates the last.
+/// \param motion_compensated the scans need no deskew
 /// \throws std::invalid_argument for less than two scans; sensors::NoRings
 FrameCorrespondences correspondences_of_last(std::span<const sensors::LidarScan> scans,
                                              const sensors::LidarProfile& profile,
+                                             bool motion_compensated,
                                              const ScanToMapOdometryOptions& options);
 
 }  // namespace traverse::lidar

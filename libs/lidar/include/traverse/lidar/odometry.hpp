@@ -6,6 +6,7 @@
 #include "traverse/geometry/pose3.hpp"
 #include "traverse/lidar/corrected_scan.hpp"
 #include "traverse/lidar/frame.hpp"
+#include "traverse/optimization/factor_kind.hpp"
 #include "traverse/sensors/imu_sample.hpp"
 #include "traverse/sensors/lidar_scan.hpp"
 
@@ -32,6 +33,9 @@ class Odometry {
 
   /// Whether scans are deskewed ("on"), and, if not, why.
   virtual const std::string& deskew_note() const = 0;
+
+  /// The factors that it solves with; a run checks their Jacobians.
+  virtual std::vector<optimization::FactorUse> factors() const { return {}; }
 
   /// The points of a scan as this algorithm uses them. \param velocity the frame's
   virtual CorrectedScan used_scan(const sensors::LidarScan& scan, const geometry::Twist& velocity,

@@ -12,8 +12,8 @@ namespace traverse::lidar {
 /// Form of the line residual. Both have the same cost. The vector u x (q - c) determines the two
 /// directions across the line and is smooth; A-LOAM uses it. The distance |u x (q - c)|, of F-LOAM
 /// and of most text books, has rank 1: it knows only the direction towards the line, nothing of the
-/// other one across it, so a solver with it takes about twice the steps; on the line itself its
-/// derivative does not exist and is set to zero (line_distance_residual).
+/// other one across it, so a solver with it takes more steps; on the line itself its derivative
+/// does not exist and is set to zero (line_distance_residual). docs/mathematics.md compares them.
 enum class LineForm { kVector, kDistance };
 
 /// Form of the plane residual: n . q + d with its sign, or its absolute value. Both have the same

@@ -45,6 +45,7 @@ class ScanToMapOdometry final : public Odometry {
   std::vector<Frame> process(const sensors::LidarScan& scan) override;
   std::vector<Frame> finish() override;
   const std::string& deskew_note() const override { return deskew_note_; }
+  std::vector<optimization::FactorUse> factors() const override;
   CorrectedScan used_scan(const sensors::LidarScan& scan, const geometry::Twist& velocity,
                           bool with_classes) const override;
 

@@ -37,7 +37,7 @@ struct FactorSample {
 /// A kind of factor that can be checked.
 struct FactorKind {
   std::string name;     ///< "line vector"
-  std::string formula;  ///< for people: "r = u x (q - c)"
+  std::string formula;  ///< for people: "r = u × (q − c)"
   std::vector<ParameterBlock> blocks;
   std::vector<Perturbation> perturbations;  ///< those that its Jacobians are derived for
 

@@ -7,6 +7,7 @@
 
 #include "traverse/geometry/pose3.hpp"
 #include "traverse/geometry/stamp.hpp"
+#include "traverse/optimization/factor_kind.hpp"
 #include "traverse/sensors/measurement.hpp"
 
 namespace traverse::pipeline {
@@ -57,6 +58,9 @@ class Estimator {
   virtual std::string points_are() const = 0;
 
   virtual std::vector<Decision> decisions() const = 0;
+
+  /// The factors that it solves with, if it does; a run checks their Jacobians.
+  virtual std::vector<optimization::FactorUse> factors() const { return {}; }
 };
 
 }  // namespace traverse::pipeline

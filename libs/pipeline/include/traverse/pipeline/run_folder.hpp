@@ -18,6 +18,10 @@ struct RunFolder {
   /// One scan of the run with the feature class of each point.
   std::filesystem::path sample_scan() const { return path / "scan.ply"; }
   std::filesystem::path evaluation() const { return path / "evaluation.json"; }
+  /// The check of the Jacobians of the factors that the run used.
+  std::filesystem::path jacobians() const { return path / "jacobians.json"; }
+  /// What their derivatives cost, if it was measured.
+  std::filesystem::path factor_bench() const { return path / "factor_bench.json"; }
   std::filesystem::path images() const { return path / "images"; }
   std::filesystem::path report() const { return path / "report.html"; }
 

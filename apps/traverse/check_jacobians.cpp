@@ -1,0 +1,125 @@
+#include "check_jacobians.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "traverse/files/atomic_file.hpp"
+#include "traverse/optimization/jacobian_audit.hpp"
+#include "traverse/pipeline/factor_kinds.hpp"
+
+#include "commands.hpp"
+#include "table.hpp"
+
+namespace traverse::app {
+
+namespace {
+
+constexpr const char* kFooter = R"(Example:
+  traverse check-jacobians --states 1000 --seed 7 --json jacobians.json
+
+Each factor's analytic Jacobian is compared at random states, away from zero residual, with the
+automatic one (dual numbers) and with central differences of the factor's own value, for a rotation
+moved on the right, R Exp(d), and on the left, Exp(d) R. Of all states the largest difference of an
+entry is shown, and the largest relative to the block's largest entry, which decides. Exit status 1 if
+a block fails. docs/mathematics.md derives what is checked.)";
+
+struct Arguments {
+  std::vector<optimization::FactorKind> kinds;
+  optimization::AuditOptions options;
+  std::optional<std::filesystem::path> json;
+};
+
+std::string difference_text(double value) {
+  return value == 0 ? "0" : fmt::format("{:.1e}", value);
+}
+
+std::string table_text(const optimization::JacobianAudit& audit) {
+  using Align = Table::Align;
+  Table table({{Align::kLeft},
+               {Align::kLeft},
+               {Align::kLeft},
+               {Align::kRight},
+               {Align::kRight},
+               {Align::kRight},
+               {Align::kRight},
+               {Align::kRight},
+               {Align::kLeft}});
+  table.add_row({"", "", "", "largest", "automatic", "", "differences", "", ""});
+  table.add_row({"factor", "perturbation", "block", "entry", "absolute", "relative", "absolute",
+                 "relative", ""});
+  for (const optimization::FactorAudit& factor : audit.factors) {
+    for (const optimization::BlockAudit& block : factor.blocks) {
+      table.add_row(
+          {factor.factor, std::string(name_of(factor.perturbation)), block.block,
+           fmt::format("{:.3g}", block.largest_entry), difference_text(block.automatic.absolute),
+           difference_text(block.automatic.relative), difference_text(block.numeric.absolute),
+           difference_text(block.numeric.relative), block.passed ? "pass" : "FAIL"});
+    }
+  }
+  return table.text(0);
+}
+
+/// What failed, one line a block; a value that differs is told of its factor.
+std::string failures(const optimization::JacobianAudit& audit) {
+  std::string text;
+  for (const optimization::FactorAudit& factor : audit.factors) {
+    const std::string name =
+        fmt::format("{}, {} perturbation", factor.factor, name_of(factor.perturbation));
+    if (!(factor.value_difference <= audit.options.automatic_tolerance)) {
+      text += fmt::format("\n  {}: the value differs from that of the automatic form by {:.1e}",
+                          name, factor.value_difference);
+    }
+    for (const optimization::BlockAudit& block : factor.blocks) {
+      if (block.passed) continue;
+      text += fmt::format("\n  {}, {}: off by {:.1e} of its largest entry (state {})", name,
+                          block.block, block.numeric.relative, block.numeric.worst_state);
+    }
+  }
+  return text;
+}
+
+void check_jacobians(const Arguments& arguments) {
+  const auto audit = optimization::audit_jacobians(arguments.kinds, arguments.options);
+  fmt::print(
+      "Analytic Jacobians against automatic ones and central differences, {} random states "
+      "(seed {})\n\n{}\n",
+      audit.options.states, audit.options.seed, table_text(audit));
+  if (arguments.json) files::write_text(*arguments.json, to_json(audit));
+  if (!audit.passed()) {
+    fmt::print("FAIL\n");
+    throw std::runtime_error("Jacobians are wrong:" + failures(audit));
+  }
+  fmt::print("PASS: all within {:.0e} of automatic derivatives and {:.0e} of differences\n",
+             audit.options.automatic_tolerance, audit.options.numeric_tolerance);
+}
+
+}  // namespace
+
+void add_check_jacobians(CLI::App& app, std::vector<optimization::FactorKind> kinds) {
+  CLI::App* command = app.add_subcommand(
+      "check-jacobians", "compare every factor's analytic Jacobian with two others");
+  const auto arguments = std::make_shared<Arguments>();
+  arguments->kinds = std::move(kinds);
+  command
+      ->add_option("--states", arguments->options.states,
+                   "random instances of each factor and perturbation")
+      ->check(CLI::Range(1, 10'000'000))
+      ->capture_default_str();
+  command->add_option("--seed", arguments->options.seed, "of the random states")
+      ->capture_default_str();
+  command->add_option("--json", arguments->json, "write every figure to this file")
+      ->type_name("FILE");
+  command->footer(kFooter);
+  command->callback([arguments] { check_jacobians(*arguments); });
+}
+
+void add_check_jacobians(CLI::App& app) { add_check_jacobians(app, pipeline::factor_kinds()); }
+
+}  // namespace traverse::app

@@ -1,0 +1,19 @@
+#include "traverse/pipeline/factor_kinds.hpp"
+
+#include <iterator>
+#include <utility>
+
+#include "traverse/lidar/factor_kinds.hpp"
+
+namespace traverse::pipeline {
+
+std::vector<optimization::FactorKind> factor_kinds() {
+  std::vector<optimization::FactorKind> all;
+  const auto add = [&](std::vector<optimization::FactorKind> kinds) {
+    std::move(kinds.begin(), kinds.end(), std::back_inserter(all));
+  };
+  add(lidar::factor_kinds());
+  return all;
+}
+
+}  // namespace traverse::pipeline

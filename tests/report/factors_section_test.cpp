@@ -1,0 +1,81 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sections.hpp"
+
+namespace traverse::report {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// The section alone, with a template that shows what it was given.
+std::string rendered(const RunData& run) {
+  TemplateData page;
+  add_factors(run, page);
+  kainjow::mustache::mustache text(
+      "{{#has_factors}}has factors{{/has_factors}} {{jacobians_kind}} {{jacobians_text}} "
+      "{{jacobians_how}} {{jacobians_formulas}}\n"
+      "{{#jacobians_table}}{{#rows}}{{#cells}}{{{text}}};{{/cells}}\n{{/rows}}{{/jacobians_table}}"
+      "{{{bench_how}}}\n"
+      "{{#evaluations_table}}{{#rows}}{{#cells}}{{{text}}};{{/cells}}\n{{/rows}}"
+      "{{/evaluations_table}}"
+      "{{#solves_table}}{{#rows}}{{#cells}}{{{text}}};{{/cells}}\n{{/rows}}{{/solves_table}}");
+  return text.render(page);
+}
+
+optimization::JacobianAudit made_audit(bool passed) {
+  optimization::FactorAudit factor;
+  factor.factor = "line vector";
+  factor.formula = "r = u x (q - c)";
+  factor.least_residual = 0.5;
+  factor.blocks = {{"rotation", 27, {1e-14, 1e-15, 3}, {1e-10, 2e-11, 4}, passed}};
+  factor.passed = passed;
+  return {{}, {factor}};
+}
+
+TEST(FactorsSection, ShowsTheDifferencesAndWhetherTheyPass) {
+  RunData run;
+  run.jacobians = made_audit(true);
+  EXPECT_THAT(rendered(run),
+              AllOf(HasSubstr("has factors good every analytic Jacobian is within 1e-09 of"),
+                    HasSubstr("200 random"), HasSubstr("line vector: r = u x (q - c)"),
+                    HasSubstr("at least 0.500 from zero residual"),
+                    HasSubstr("line vector;right;rotation;27.0;1.00e-14;1.00e-15;"
+                              "1.00e-10;2.00e-11;pass;")));
+  run.jacobians = made_audit(false);
+  EXPECT_THAT(rendered(run), AllOf(HasSubstr("fail a Jacobian is wrong"), HasSubstr("FAIL;"),
+                                   Not(HasSubstr("every analytic"))));
+}
+
+TEST(FactorsSection, ComparesTheDerivativesOfEachCase) {
+  using optimization::Derivative;
+  RunData run;
+  lidar::FactorBench bench;
+  bench.recording = "a street";
+  bench.frame = 10;
+  bench.repeats = 51;
+  const std::vector<std::string> both{"line vector", "plane signed"};
+  for (const auto& [derivative, factor] :
+       {std::pair{Derivative::kAnalytic, 1.0}, std::pair{Derivative::kAutomatic, 8.0},
+        std::pair{Derivative::kNumeric, 16.0}}) {
+    bench.evaluations.push_back(
+        {"line vector", derivative, 90, {factor * 50, factor * 49, factor * 53}});
+    bench.solves.push_back({both, derivative, 4, {factor, factor, factor}, factor * 1e-9, 0});
+  }
+  run.factor_bench = bench;
+  EXPECT_THAT(
+      rendered(run),
+      AllOf(HasSubstr("a street, frame 10"),
+            HasSubstr("line vector;50.0 ± 2.0;400.0 ± 16.0;800.0 ± 32.0;8.00;16.0;"),
+            HasSubstr("line vector + plane signed;1.00 ± 0.00;8.00 ± 0.00;16.0 ± 0.0;8.00;16.0;"
+                      "4/4/4;1.60e-08;0;")));
+}
+
+TEST(FactorsSection, IsNotThereWithoutFactors) {
+  EXPECT_THAT(rendered(RunData{}), Not(HasSubstr("has factors")));
+}
+
+}  // namespace
+}  // namespace traverse::report
