@@ -51,6 +51,13 @@ inertial::Mounts mounts_of(const dataset::RecordingInfo& recording) {
   return mounts;
 }
 
+/// Without a receiver there is no fix to wait for.
+inertial::NavigationOptions fitted(inertial::NavigationOptions options,
+                                   const dataset::RecordingInfo& recording) {
+  if (recording.rig.first(SensorKind::kGnss) == nullptr) options.start.gnss_wait_s = 0;
+  return options;
+}
+
 /// The health record of a frame: its columns and their values are named in this one place. What was
 /// not measured is -1, as chi-square never is.
 template <typename Add>
@@ -111,7 +118,7 @@ NavigationEstimator::NavigationEstimator(const inertial::NavigationOptions& opti
       wheels_(label_of(recording, SensorKind::kWheels)),
       R_body_imu_(imu_of(recording).T_body_sensor.rotation),
       T_nav_body_{Eigen::Matrix3d::Identity(), -imu_of(recording).T_body_sensor.translation},
-      navigation_(options, mounts_of(recording)) {}
+      navigation_(fitted(options, recording), mounts_of(recording)) {}
 
 const std::vector<std::string>& NavigationEstimator::columns() const {
   static const std::vector<std::string> kNames = names_of_columns();

@@ -392,7 +392,7 @@ std::vector<Figure> draw_figures(const RunData& run,
     add_error_over_time(run, maker);
     if (run.evaluation.comparison->kitti) add_kitti_drift(*run.evaluation.comparison->kitti, maker);
   }
-  add_maps(run, maker);
+  if (run.map.size() > 0) add_maps(run, maker);
   add_scan(run, maker);
   add_health(run, maker);
   add_timing(run, maker);

@@ -47,6 +47,7 @@ std::string make_page(const RunData& run, const std::vector<Figure>& figures,
   add_health(run, page);
   add_timing(run, page);
   add_factors(run, page);
+  add_navigation(run, page);
   add_provenance(run, page);
   add_figures(figures, page);
 

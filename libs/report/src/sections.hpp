@@ -15,6 +15,7 @@ void add_accuracy(const RunData& run, TemplateData& page);
 void add_health(const RunData& run, TemplateData& page);
 void add_timing(const RunData& run, TemplateData& page);
 void add_factors(const RunData& run, TemplateData& page);
+void add_navigation(const RunData& run, TemplateData& page);
 void add_provenance(const RunData& run, TemplateData& page);
 
 }  // namespace traverse::report
