@@ -89,7 +89,7 @@ struct SimulatedSensors {
   double gyro_bias = 5e-3;  ///< standard deviation of the first
   double accelerometer_bias = 0.1;
   double gnss_hz = 10;
-  double gnss_sigma_m = 0.01;  ///< horizontally; twice that in height
+  double gnss_sigma_m = 0.01;    ///< horizontally; twice that in height
   double heading_sigma_deg = 0;  ///< of two antennas; 0: there is only one
   Eigen::Vector3d antenna_body{-0.3, 0.2, 0.9};
   double wheel_hz = 10;

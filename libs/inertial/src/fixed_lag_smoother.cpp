@@ -24,6 +24,20 @@ Cholesky factorised(const Matrix& H) {
 
 Matrix symmetric(const Matrix& H) { return 0.5 * (H + H.transpose()); }
 
+/// What the sum over samples is not exact to; keeps links of a few milliseconds from being so stiff
+/// that the rest of the information is lost in rounding.
+constexpr double kIntegrationRotation = 1e-6;  // rad
+constexpr double kIntegrationVelocity = 1e-5;  // m/s
+constexpr double kIntegrationPosition = 1e-5;  // m
+
+Preintegration::Matrix9 weight_of(const Preintegration& imu) {
+  Preintegration::Matrix9 covariance = imu.covariance();
+  covariance.diagonal().segment<3>(0).array() += kIntegrationRotation * kIntegrationRotation;
+  covariance.diagonal().segment<3>(3).array() += kIntegrationVelocity * kIntegrationVelocity;
+  covariance.diagonal().segment<3>(6).array() += kIntegrationPosition * kIntegrationPosition;
+  return square_root_information<9>(covariance);
+}
+
 /// Huber's loss of the squared norm s: its value and its derivative, the weight of the rows.
 std::pair<double, double> huber_loss(double s, double k) {
   if (k <= 0 || s <= k * k) return {s, 1};
@@ -52,7 +66,7 @@ void FixedLagSmoother::start(const NavState& state, const Tangent& sigma) {
 FixedLagSmoother::Link FixedLagSmoother::make_link(std::shared_ptr<Preintegration> imu) const {
   const double root_seconds = std::sqrt(imu->seconds());
   Link link;
-  link.weight = square_root_information<9>(imu->covariance());
+  link.weight = weight_of(*imu);
   link.gyro_walk = 1 / (noise_.gyro_bias_walk * root_seconds);
   link.accelerometer_walk = 1 / (noise_.accelerometer_bias_walk * root_seconds);
   link.scale_walk = 1 / (wheel_scale_walk_ * root_seconds);
@@ -213,7 +227,7 @@ void FixedLagSmoother::reintegrate_where_biases_moved() {
             options_.reintegrate_accelerometer;
     if (!has_moved) continue;
     imu.reintegrate(node.x.gyro_bias, node.x.accelerometer_bias);
-    node.to_next.weight = square_root_information<9>(imu.covariance());
+    node.to_next.weight = weight_of(imu);
   }
 }
 

@@ -149,7 +149,11 @@ class Navigation::Impl {
     const bool is_gap = seconds > kGap;
     if (is_gap) ++events["gap between IMU readings"];
     const Eigen::Vector3d rate = 0.5 * (previous_->angular_rate + sample.angular_rate);
-    const Eigen::Vector3d force = 0.5 * (previous_->specific_force + sample.specific_force);
+    // The later reading is in axes that have turned: brought back, the mean is the trapezoidal rule
+    // on R a, of second order, where the mean of the readings as they are is of first.
+    const Eigen::Vector3d turn = (rate - link_->gyro_bias()) * seconds;
+    const Eigen::Vector3d force =
+        0.5 * (previous_->specific_force + geometry::exp_so3(turn) * sample.specific_force);
     const int pieces = is_gap ? static_cast<int>(std::ceil(seconds / kPiece)) : 1;
     for (int k = 0; k < pieces; ++k) {
       link_->add(rate, force, seconds / pieces, is_gap ? kGapNoise : 1);
@@ -231,7 +235,8 @@ class Navigation::Impl {
     }
     const bool is_out = outages_.is_out(fix.stamp);
     if (is_out) ++events["fix kept back on purpose"];
-    if (is_out && options_.wheels.use && wheel_speed_.is_fresh()) return;  // they make states
+    // The wheels make states meanwhile, where there are any.
+    if (is_out && (wheel_speed_.is_fresh() || is_close_to_newest(fix.stamp))) return;
     make_state(fix.stamp);
     frame_->by_gnss = !is_out;
     if (!is_out) constrain(map_fix);
@@ -254,7 +259,7 @@ class Navigation::Impl {
     const bool is_due =
         options_.trigger == Trigger::kGnssAndWheels ||
         seconds_between(smoother_->newest().stamp, reading.stamp) > options_.longest_step_s;
-    if (!is_due) return;
+    if (!is_due || is_close_to_newest(reading.stamp)) return;
     make_state(reading.stamp);
     frame_->by_wheels = true;
     constrain_by_wheels();
@@ -289,6 +294,13 @@ class Navigation::Impl {
   }
 
   // ---- states and their constraints
+
+  /// Whether a state at `stamp` would hardly differ from the newest; readings of wheels wait then.
+  bool is_close_to_newest(Stamp stamp) const {
+    constexpr double kClose = 0.01;
+    const double seconds = seconds_between(smoother_->newest().stamp, stamp);
+    return seconds > kSameMoment && seconds < kClose;
+  }
 
   /// The state at `stamp`: the newest, if it is of this moment, or one more.
   void make_state(Stamp stamp) {
