@@ -271,8 +271,8 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
     record.frames_read = results.frames().rows().size() + source.skipped().total();
     if (results.frames().rows().empty()) {
       throw std::runtime_error(source.info().path.string() +
-                               ": no frame was estimated: the recording has nothing that the "
-                               "pipeline can use in the range asked for");
+                               ": no frame was estimated: the recording has no usable scan in the "
+                               "range asked for");
     }
     observer.stage("maps and trajectory");
     fill_results(results, record);
