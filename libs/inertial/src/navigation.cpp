@@ -390,20 +390,24 @@ class Navigation::Impl {
     const NavState& x = smoother_->newest();
     const auto speed = wheel_speed_.take(x.stamp);
     if (!speed) return;
+    // Wheels that disagree for long are right: without them nothing bounds the speed.
+    constexpr int kMostRejected = 10;
+    const bool gate = wheels.gate && wheels_rejected_in_a_row_ < kMostRejected;
     if (wheels.zero_velocity && wheel_speed_.standing_seconds() > wheels.standing_s) {
       Eigen::Matrix<double, 6, 1> sigma;
       constexpr double kStandingRate = 5e-3;  // rad/s; an engine shakes
       sigma << Eigen::Vector3d::Constant(std::max(1e-3, wheels.standing_mps / 2)),
           Eigen::Vector3d::Constant(kStandingRate);
       frame_->standing = take(ZeroVelocityModel{previous_->angular_rate},
-                              sigma.cwiseAbs2().asDiagonal().toDenseMatrix(), wheels.gate);
+                              sigma.cwiseAbs2().asDiagonal().toDenseMatrix(), gate);
       if (frame_->standing.is_rejected) ++events["stand-still rejected by chi-square"];
+      count_rejection(frame_->standing);
       return;
     }
     const Eigen::Vector3d sigma(wheels.forward_mps, wheels.sideways_mps, wheels.upwards_mps);
     if (wheels.form == WheelForm::kVelocity) {
       frame_->wheels = take(WheelVelocityModel{*speed, mounts_.wheels, previous_->angular_rate},
-                            sigma.cwiseAbs2().asDiagonal().toDenseMatrix(), wheels.gate);
+                            sigma.cwiseAbs2().asDiagonal().toDenseMatrix(), gate);
     } else {
       const WheelMount& mount = mounts_.wheels;
       const Eigen::Vector3d rate = previous_->angular_rate - x.gyro_bias;
@@ -413,9 +417,14 @@ class Navigation::Impl {
       const Eigen::Vector3d v_map = x.q_map_body * v_body;
       const double forward = wheels.forward_mps * wheels.forward_mps;
       frame_->wheels = take(WorldVelocityModel{v_map},
-                            Eigen::Matrix3d(forward * Eigen::Matrix3d::Identity()), wheels.gate);
+                            Eigen::Matrix3d(forward * Eigen::Matrix3d::Identity()), gate);
     }
     if (frame_->wheels.is_rejected) ++events["wheel reading rejected by chi-square"];
+    count_rejection(frame_->wheels);
+  }
+
+  void count_rejection(const Innovation& found) {
+    wheels_rejected_in_a_row_ = found.is_rejected ? wheels_rejected_in_a_row_ + 1 : 0;
   }
 
   void report_outage(const Eigen::Vector3d& residual) {
@@ -463,6 +472,7 @@ class Navigation::Impl {
   WheelSpeed wheel_speed_;
   OutageSchedule outages_;
   int rejected_in_a_row_ = 0;
+  int wheels_rejected_in_a_row_ = 0;
   std::optional<NavFrame> frame_;
   std::vector<NavFrame> done_;
 };
