@@ -54,6 +54,22 @@ FixedLagSmoother::FixedLagSmoother(const WindowOptions& options, const ImuNoise&
       wheel_scale_walk_(wheel_scale_walk),
       gravity_map_(gravity_map) {}
 
+FixedLagSmoother::FixedLagSmoother(const FixedLagSmoother& other)
+    : options_(other.options_),
+      noise_(other.noise_),
+      wheel_scale_walk_(other.wheel_scale_walk_),
+      gravity_map_(other.gravity_map_),
+      nodes_(other.nodes_),
+      prior_(other.prior_),
+      information_(other.information_),
+      covariance_(other.covariance_) {
+  for (Node& node : nodes_) {
+    if (node.to_next.imu) {
+      node.to_next.imu = std::make_shared<Preintegration>(*node.to_next.imu);
+    }
+  }
+}
+
 void FixedLagSmoother::start(const NavState& state, const Tangent& sigma) {
   nodes_.clear();
   nodes_.emplace_back();

@@ -33,6 +33,12 @@ class FixedLagSmoother {
   FixedLagSmoother(const WindowOptions& options, const ImuNoise& noise, double wheel_scale_walk,
                    const Eigen::Vector3d& gravity_map);
 
+  /// A copy has pre-integrations of its own, because they are made again when biases move.
+  FixedLagSmoother(const FixedLagSmoother& other);
+  FixedLagSmoother(FixedLagSmoother&&) = default;
+  FixedLagSmoother& operator=(const FixedLagSmoother&) = delete;
+  FixedLagSmoother& operator=(FixedLagSmoother&&) = default;
+
   /// \param sigma  standard deviations of the tangent
   void start(const NavState& state, const NavState::Tangent& sigma);
 
@@ -67,7 +73,7 @@ class FixedLagSmoother {
   struct Node {
     NavState x;
     std::optional<NavState> first_estimate;  ///< where Jacobians are taken, if not at x
-    std::vector<std::unique_ptr<StateFactor>> factors;
+    std::vector<std::shared_ptr<const StateFactor>> factors;
     Link to_next;
   };
   /// r = W (x - at) + e

@@ -65,6 +65,11 @@ class Navigation::Impl {
         wheel_speed_(mounts.encoder, options.wheels.standing_mps),
         outages_(options.outage) {}
 
+  /// After a copy: samples join a pre-integration of its own.
+  void own_the_link() {
+    if (link_) link_ = std::make_shared<Preintegration>(*link_);
+  }
+
   std::vector<NavFrame> add(const ImuSample& sample) {
     if (!sample.angular_rate.allFinite() || !sample.specific_force.allFinite()) {
       ++events["IMU reading that is not finite"];
@@ -479,6 +484,9 @@ class Navigation::Impl {
 
 Navigation::Navigation(const NavigationOptions& options, const Mounts& mounts)
     : impl_(std::make_unique<Impl>(options, mounts)) {}
+Navigation::Navigation(const Navigation& other) : impl_(std::make_unique<Impl>(*other.impl_)) {
+  impl_->own_the_link();
+}
 Navigation::~Navigation() = default;
 
 std::vector<NavFrame> Navigation::add(const ImuSample& sample) { return impl_->add(sample); }

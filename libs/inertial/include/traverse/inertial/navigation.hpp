@@ -73,6 +73,7 @@ struct OutageResult {
 class Navigation {
  public:
   Navigation(const NavigationOptions& options, const Mounts& mounts);
+  Navigation(const Navigation& other);
   ~Navigation();
 
   /// \returns the frames that are now complete, oldest first
