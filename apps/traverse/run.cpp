@@ -58,6 +58,7 @@ struct RunArguments {
   pipeline::PresetRequest preset;
   std::string reference;
   std::string reference_frame;
+  std::string gnss_outages;
   std::size_t first = 0;
   std::optional<std::size_t> last;
   int threads = 1;
@@ -102,6 +103,9 @@ void run_recording(RunArguments& arguments, const std::vector<std::string>& comm
   }
   if (!arguments.reference_frame.empty()) {
     arguments.recording.statements.push_back("reference.frame=" + arguments.reference_frame);
+  }
+  if (!arguments.gnss_outages.empty()) {
+    arguments.preset.assignments.push_back("outage.spells_s=[" + arguments.gnss_outages + "]");
   }
   const InstalledFiles installed = find_installed_files();
   const pipeline::Preset preset = checked_preset(arguments.preset, installed.share);
@@ -149,6 +153,8 @@ constexpr const char* kExamples = R"(Examples:
   traverse run 2011_09_26_drive_0001 -o RUN            a recording that states its own facts
   traverse run sequences/00 -o RUN --last 499          the first 500 frames of KITTI odometry 00
   traverse run drive.rawlog -o RUN --pipeline floam --set solver.line_residual=vector
+  traverse run log.txt -o RUN --pipeline gins-window --drop-gnss 10,30
+                                                       GNSS, IMU and wheels; what it is worth without
   traverse run drive -o RUN --reference truth.tum --threads 4
 Ctrl-C ends the run in order: what is done so far is written and evaluated.
 `traverse pipelines` lists the presets, `traverse pipelines traverse` their settings.)";
@@ -187,6 +193,9 @@ void add_run(CLI::App& app) {
       ->check(CLI::IsMember({"body", "lidar", "camera"}));
   run->add_flag("--bench-factors", arguments->bench_factors,
                 "measure analytic, automatic and numeric derivatives on a frame of the run");
+  run->add_option("--drop-gnss", arguments->gnss_outages,
+                  "keep fixes back for spells of so many seconds, and tell the error after each")
+      ->type_name("10,30,60");
   run->add_flag("!--no-report", arguments->report, "no pictures and no report.html");
   add_budget_option(*run, arguments->budget);
   run->add_flag("!--no-hash", arguments->hash, "do not compute the recording's SHA-256");

@@ -3,6 +3,7 @@
 #include "traverse/files/input_error.hpp"
 
 #include "folder_opening.hpp"
+#include "navigation_log.hpp"
 #include "rawlog_source.hpp"
 #include "scan_files.hpp"
 
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFolders =
     "a recording: a folder with velodyne/*.bin (KITTI odometry), velodyne_points/data/*.bin "
-    "(KITTI raw), or *.pcd or *.ply files";
+    "(KITTI raw), or *.pcd, *.ply or *.csv files";
 
 std::unique_ptr<Source> open_folder(const fs::path& folder, const OpenOptions& options) {
   if (!files_with_extension(folder / "velodyne", ".bin").empty()) {
@@ -30,6 +31,7 @@ std::unique_ptr<Source> open_folder(const fs::path& folder, const OpenOptions& o
       !files_with_extension(folder, ".ply").empty()) {
     return open_point_cloud_folder(folder, options);
   }
+  if (!files_with_extension(folder, ".csv").empty()) return open_csv_folder(folder, options);
   throw InputError(folder, Place::whole_file(), kFolders,
                    fs::is_empty(folder) ? "an empty folder" : "a folder with none of these");
 }
@@ -44,7 +46,9 @@ std::unique_ptr<Source> open_recording(const fs::path& path, const OpenOptions& 
                      failure ? failure.message() : "no such file or folder");
   }
   try {
-    return fs::is_directory(whole) ? open_folder(whole, options) : open_rawlog(whole, options);
+    if (fs::is_directory(whole)) return open_folder(whole, options);
+    if (is_navigation_log(whole)) return open_navigation_log(whole, options);
+    return open_rawlog(whole, options);
   } catch (const fs::filesystem_error& error) {
     throw InputError(error.path1(), Place::whole_file(), "a readable recording",
                      error.code().message());

@@ -29,6 +29,7 @@ std::string RawlogSensors::label_of(SensorKind kind, const std::string& name,
   if (is_new) {
     known->second = unique_label(kind, name);
     info_.rig.sensors.push_back({known->second, kind, T_body_sensor, std::nullopt});
+    apply_vehicle(statements_, info_.rig.sensors.back());
   }
   return known->second;
 }

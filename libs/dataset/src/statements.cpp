@@ -48,6 +48,11 @@ void bind(Binder& b, StatedValues& v) {
   b.text("body_frame", v.body_frame, "what reports call the body frame");
   b.number("period_s", v.period_s, Range::positive(), "between scans without stamps");
   b.text("first_stamp", v.first_stamp, "of the first scan without stamps, seconds");
+  b.group("vehicle", "where its sensors are, and what its wheels tell",
+          [&](Binder& vehicle) { bind(vehicle, v.vehicle); });
+  b.group("log", "how a text log writes things", [&](Binder& log) { bind(log, v.log); });
+  b.group("csv", "which columns of which files a recording is",
+          [&](Binder& csv) { bind(csv, v.csv); });
 }
 
 Statements::Statements(const fs::path& sidecar, const OpenOptions& options, fs::path folder)

@@ -11,6 +11,9 @@
 #include "traverse/files/input_error.hpp"
 #include "traverse/sensors/lidar_profile.hpp"
 
+#include "log_statements.hpp"
+#include "vehicle_statements.hpp"
+
 namespace traverse::dataset {
 
 /// The frame whose poses a reference file holds.
@@ -30,6 +33,9 @@ struct StatedValues {
   std::string body_frame;
   double period_s = 0.1;
   std::string first_stamp;
+  VehicleStatements vehicle;
+  LogStatements log;
+  CsvStatements csv;
 };
 
 void bind(config::Binder& binder, StatedValues& values);

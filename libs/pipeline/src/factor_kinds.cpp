@@ -3,6 +3,7 @@
 #include <iterator>
 #include <utility>
 
+#include "traverse/inertial/factor_kinds.hpp"
 #include "traverse/lidar/factor_kinds.hpp"
 
 namespace traverse::pipeline {
@@ -13,6 +14,7 @@ std::vector<optimization::FactorKind> factor_kinds() {
     std::move(kinds.begin(), kinds.end(), std::back_inserter(all));
   };
   add(lidar::factor_kinds());
+  add(inertial::factor_kinds());
   return all;
 }
 

@@ -8,11 +8,13 @@
 #include <fmt/ranges.h>
 
 #include "traverse/files/input_error.hpp"
+#include "traverse/inertial/navigation_options.hpp"
 #include "traverse/lidar/scan_to_map_odometry.hpp"
 #include "traverse/lidar/two_stage_odometry.hpp"
 #include "traverse/lidar/voxel/voxel_map_odometry.hpp"
 
 #include "lidar_estimator.hpp"
+#include "navigation_estimator.hpp"
 
 namespace traverse::pipeline {
 
@@ -60,8 +62,19 @@ std::unique_ptr<Estimator> make_lidar(const config::Document& document,
 template <typename Odometry, typename Options>
 constexpr Kind kLidarKind{settings_of<Options>, make_lidar<Odometry, Options>};
 
+template <typename Options>
+std::unique_ptr<Estimator> make_navigation(const config::Document& document,
+                                           const dataset::RecordingInfo& recording, int) {
+  return std::make_unique<NavigationEstimator>(read_options<Options>(document), recording);
+}
+
+template <typename Options>
+constexpr Kind kNavigationKind{settings_of<Options>, make_navigation<Options>};
+
 const Kind& find_kind(const Preset& preset) {
   static const std::map<std::string, Kind, std::less<>> kKinds{
+      {"gins_two_frame", kNavigationKind<inertial::TwoFrameOptions>},
+      {"gins_window", kNavigationKind<inertial::SlidingWindowOptions>},
       {"scan_to_map", kLidarKind<lidar::ScanToMapOdometry, lidar::ScanToMapOdometryOptions>},
       {"two_stage", kLidarKind<lidar::TwoStageOdometry, lidar::TwoStageOdometryOptions>},
       {"voxel_map",

@@ -216,8 +216,10 @@ void write_results(const dataset::Source& source, const Results& results, const 
   dataset::write_tum(folder.trajectory(), results.trajectory());
   if (source.reference()) dataset::write_tum(folder.reference(), source.reference()->T_map_body);
   results.frames().write_csv(folder.frames());
-  results.map().write_ply(folder.map_points());
-  results.keyframes().write(folder.simple_map());
+  if (results.map().size() > 0) {
+    results.map().write_ply(folder.map_points());
+    results.keyframes().write(folder.simple_map());
+  }
   if (!results.sample().x.empty()) {
     dataset::write_ply(folder.sample_scan(), to_point_cloud(results.sample()));
   }
@@ -265,6 +267,7 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
   try {
     Results results(*pipeline.estimator, source.info(), options);
     const bool stopped = estimate_all(source, *pipeline.estimator, options, observer, results);
+    record.decisions = pipeline.estimator->decisions();  // some are made on the way
     record.frames_read = results.frames().rows().size() + source.skipped().total();
     if (results.frames().rows().empty()) {
       throw std::runtime_error(source.info().path.string() +

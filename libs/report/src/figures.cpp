@@ -254,7 +254,7 @@ std::vector<Figure> draw_figures(const RunData& run, const WorstSegments& worst,
   add_trajectories(run, maker);
   if (run.evaluation.comparison) add_error_figures(run, maker);
   add_worst_segment_figures(run, worst, maker);
-  add_maps(run, maker);
+  if (run.map.size() > 0) add_maps(run, maker);
   add_scan(run, maker);
   add_health(run, maker);
   add_timing(run, maker);

@@ -57,7 +57,9 @@ RunData read_run(const std::filesystem::path& folder) {
   if (std::filesystem::exists(files.reference())) {
     run.reference = dataset::read_trajectory(files.reference(), dataset::TrajectoryFormat::kTum);
   }
-  run.map = dataset::read_point_cloud(files.map_points());
+  if (std::filesystem::exists(files.map_points())) {
+    run.map = dataset::read_point_cloud(files.map_points());
+  }
   if (std::filesystem::exists(files.sample_scan())) {
     run.sample_scan = dataset::read_point_cloud(files.sample_scan());
   }

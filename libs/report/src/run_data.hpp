@@ -23,7 +23,7 @@ struct RunData {
   evaluation::Evaluation evaluation;
   geometry::Trajectory estimate;
   std::optional<geometry::Trajectory> reference;
-  dataset::PointCloud map;
+  dataset::PointCloud map;  ///< empty for a run without lidar
   std::optional<dataset::PointCloud> sample_scan;
   std::optional<optimization::JacobianAudit> jacobians;
   std::optional<lidar::FactorBench> factor_bench;

@@ -29,6 +29,12 @@ namespace traverse::dataset {
 ///     body_frame: lidar             what reports call the body
 ///     period_s: 0.1                 for folders without stamps
 ///     first_stamp: 1317042145.964   for folders without stamps, seconds
+///     vehicle:                      mounting in the body frame: x ahead, y left, z up
+///       imu: {position_m: [0, 0, 0], roll_pitch_yaw_deg: [0, 0, 0]}
+///       gnss: {position_m: [0, 0, 0], heading_offset_deg: 0}
+///       wheels: {position_m: [0, 0, 0], left_m_per_pulse: 0, right_m_per_pulse: 0}
+///     log: {angular_rate: rad, pulses: interval, time_unit_s: 1}   of a text log
+///     csv: ...                      columns of a folder of CSV files: share/recordings has examples
 struct OpenOptions {
   /// Statements in the form of traverse.yaml, stronger than the file: from a YAML file and from
   /// --recording key=value on the command line.
@@ -42,6 +48,8 @@ struct OpenOptions {
 ///   a folder with velodyne/*.bin                          KITTI odometry
 ///   a folder with velodyne_points/data/*.bin              KITTI raw
 ///   a folder with *.pcd or *.ply                          point clouds
+///   a folder with *.csv, with statements under `csv`       navigation sensors in CSV files
+///   a text file with lines IMU, ODOM and GNSS              navigation log
 ///   a file *.rawlog (or any file that begins like one)    MRPT rawlog
 /// \throws files::InputError if it is none of these or cannot be read.
 std::unique_ptr<Source> open_recording(const std::filesystem::path& path,

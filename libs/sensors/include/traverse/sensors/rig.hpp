@@ -7,6 +7,7 @@
 
 #include "traverse/geometry/pose3.hpp"
 #include "traverse/sensors/lidar_profile.hpp"
+#include "traverse/sensors/wheel_encoder.hpp"
 
 namespace traverse::sensors {
 
@@ -19,8 +20,11 @@ std::string_view name_of(SensorKind kind);
 struct MountedSensor {
   std::string label;  ///< as in Measurement::sensor
   SensorKind kind = SensorKind::kLidar;
+  /// Of a GNSS antenna the position; its rotation about z is that of the baseline of two antennas
+  /// whose heading a fix tells. Of wheels the middle of the axle that they are on.
   geometry::Pose3 T_body_sensor;
-  std::optional<LidarProfile> lidar;  ///< set for kLidar
+  std::optional<LidarProfile> lidar;         ///< set for kLidar
+  std::optional<WheelEncoder> encoder = {};  ///< for kWheels, where it is known
 };
 
 /// The sensors of a vehicle and their calibration.

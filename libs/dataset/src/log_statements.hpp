@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "traverse/config/binder.hpp"
+
+namespace traverse::dataset {
+
+enum class AngularUnit { kRadians, kDegrees };
+enum class PulseCount { kInterval, kCumulative };
+
+/// How a text log writes its numbers.
+struct LogStatements {
+  AngularUnit angular_rate = AngularUnit::kRadians;
+  PulseCount pulses = PulseCount::kInterval;
+  double time_unit_s = 1;
+};
+void bind(config::Binder& binder, LogStatements& log);
+
+/// The columns of one sensor in a CSV file with a header line.
+struct CsvColumns {
+  std::string file;  ///< empty: the recording has no such sensor
+  std::string time = "t";
+  std::string columns;  ///< names, blanks between
+};
+
+/// The files that make a recording.
+struct CsvStatements {
+  CsvColumns gyro;           ///< x y z [rad/s, or as `angular_rate` says]
+  CsvColumns accelerometer;  ///< x y z [m/s^2]
+  CsvColumns gnss;           ///< latitude, longitude [deg], altitude [m]; heading [deg] if there
+  CsvColumns wheels;         ///< one or more forward speeds [m/s], of which the mean is taken
+  CsvColumns reference;      ///< x y z qw qx qy qz of the body, earth-centred earth-fixed [m]
+  AngularUnit angular_rate = AngularUnit::kRadians;
+  double time_unit_s = 1;
+};
+void bind(config::Binder& binder, CsvStatements& csv);
+
+}  // namespace traverse::dataset

@@ -1,0 +1,86 @@
+#include "vehicle_statements.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "traverse/geometry/so3.hpp"
+
+#include "statements.hpp"
+
+namespace traverse::dataset {
+
+using config::Binder;
+using config::Range;
+using sensors::MountedSensor;
+using sensors::SensorKind;
+
+namespace {
+
+constexpr double kRadiansPerDegree = std::numbers::pi / 180;
+
+Eigen::Vector3d vector_of(const Statements& statements, const std::string& key,
+                          const std::vector<double>& values) {
+  if (values.size() != 3) {
+    throw statements.error(key, "three numbers", fmt::format("{}", values.size()));
+  }
+  return {values[0], values[1], values[2]};
+}
+
+void place(const Statements& statements, const std::string& key, const std::vector<double>& values,
+           MountedSensor& sensor) {
+  if (!statements.states(key)) return;
+  sensor.T_body_sensor.translation = vector_of(statements, key, values);
+}
+
+}  // namespace
+
+void bind(Binder& b, VehicleStatements& v) {
+  b.group("imu", "of the IMU", [&](Binder& imu) {
+    imu.numbers("position_m", v.imu_position_m, "in the body, metres");
+    imu.numbers("roll_pitch_yaw_deg", v.imu_roll_pitch_yaw_deg,
+                "of its axes in the body: about x, then y, then z, degrees");
+  });
+  b.group("gnss", "of the GNSS antenna", [&](Binder& gnss) {
+    gnss.numbers("position_m", v.gnss_position_m, "in the body, metres");
+    gnss.number("heading_offset_deg", v.gnss_heading_offset_deg, Range::between(-360, 360),
+                "of the two antennas' baseline from the x axis, counterclockwise");
+  });
+  b.group("wheels", "of the wheels that have encoders", [&](Binder& wheels) {
+    wheels.numbers("position_m", v.wheels_position_m, "middle of their axle in the body, metres");
+    wheels.number("left_m_per_pulse", v.left_m_per_pulse, Range::non_negative(),
+                  "distance that a pulse tells");
+    wheels.number("right_m_per_pulse", v.right_m_per_pulse, Range::non_negative(),
+                  "distance that a pulse tells");
+  });
+}
+
+void apply_vehicle(const Statements& statements, MountedSensor& sensor) {
+  const VehicleStatements& v = statements->vehicle;
+  if (sensor.kind == SensorKind::kImu) {
+    place(statements, "vehicle.imu.position_m", v.imu_position_m, sensor);
+    const std::string key = "vehicle.imu.roll_pitch_yaw_deg";
+    if (!statements.states(key)) return;
+    const Eigen::Vector3d rpy =
+        kRadiansPerDegree * vector_of(statements, key, v.imu_roll_pitch_yaw_deg);
+    sensor.T_body_sensor.rotation = geometry::exp_so3({0, 0, rpy.z()}) *
+                                    geometry::exp_so3({0, rpy.y(), 0}) *
+                                    geometry::exp_so3({rpy.x(), 0, 0});
+  }
+  if (sensor.kind == SensorKind::kGnss) {
+    place(statements, "vehicle.gnss.position_m", v.gnss_position_m, sensor);
+    if (!statements.states("vehicle.gnss.heading_offset_deg")) return;
+    sensor.T_body_sensor.rotation =
+        geometry::exp_so3({0, 0, v.gnss_heading_offset_deg * kRadiansPerDegree});
+  }
+  if (sensor.kind == SensorKind::kWheels) {
+    place(statements, "vehicle.wheels.position_m", v.wheels_position_m, sensor);
+    if (v.left_m_per_pulse > 0 && v.right_m_per_pulse > 0) {
+      sensor.encoder = {v.left_m_per_pulse, v.right_m_per_pulse};
+    }
+  }
+}
+
+}  // namespace traverse::dataset

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "traverse/optimization/factor_kind.hpp"
+
+namespace traverse::inertial {
+
+/// The factors of navigation for the check of their Jacobians, at states away from zero residual
+/// and biases away from those that were integrated about. Only the blocks that a factor depends on
+/// are parameters, so that the inertial one shows its 14 non-zero blocks row by row:
+/// "inertial rotation", "inertial velocity" and "inertial position".
+std::vector<optimization::FactorKind> factor_kinds();
+
+}  // namespace traverse::inertial

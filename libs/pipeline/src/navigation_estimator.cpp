@@ -1,0 +1,222 @@
+#include "navigation_estimator.hpp"
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string_view>
+#include <variant>
+
+#include <fmt/format.h>
+
+namespace traverse::pipeline {
+
+namespace {
+
+using inertial::Innovation;
+using inertial::NavFrame;
+using inertial::NavState;
+using sensors::SensorKind;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+const sensors::MountedSensor& imu_of(const dataset::RecordingInfo& recording) {
+  const auto* imu = recording.rig.first(SensorKind::kImu);
+  if (imu == nullptr) {
+    throw std::runtime_error(recording.path.string() +
+                             ": no IMU in this recording, which navigation needs");
+  }
+  return *imu;
+}
+
+std::string label_of(const dataset::RecordingInfo& recording, SensorKind kind) {
+  const auto* sensor = recording.rig.first(kind);
+  return sensor == nullptr ? std::string() : sensor->label;
+}
+
+inertial::Mounts mounts_of(const dataset::RecordingInfo& recording) {
+  const Eigen::Vector3d p_imu = imu_of(recording).T_body_sensor.translation;
+  inertial::Mounts mounts;
+  if (const auto* gnss = recording.rig.first(SensorKind::kGnss)) {
+    mounts.antenna_body = gnss->T_body_sensor.translation - p_imu;
+    const Eigen::Matrix3d& R = gnss->T_body_sensor.rotation;
+    mounts.baseline_angle = std::atan2(R(1, 0), R(0, 0));
+  }
+  if (const auto* wheels = recording.rig.first(SensorKind::kWheels)) {
+    mounts.wheels.p_body = wheels->T_body_sensor.translation - p_imu;
+    mounts.wheels.R_wheels_body = wheels->T_body_sensor.rotation.transpose();
+    mounts.encoder = wheels->encoder;
+  }
+  return mounts;
+}
+
+/// Without a receiver there is no fix to wait for.
+inertial::NavigationOptions fitted(inertial::NavigationOptions options,
+                                   const dataset::RecordingInfo& recording) {
+  if (recording.rig.first(SensorKind::kGnss) == nullptr) options.start.gnss_wait_s = 0;
+  return options;
+}
+
+/// The health record of a frame: its columns and their values are named in this one place. What was
+/// not measured is -1, as chi-square never is.
+template <typename Add>
+void for_each_value(const NavFrame& frame, const Add& add) {
+  const auto chi2 = [&](const char* name, const Innovation& found) {
+    add(fmt::format("{}_chi2", name), found.rows > 0 ? found.chi2 : -1);
+    add(fmt::format("{}_rows", name), found.rows);
+    add(fmt::format("{}_rejected", name), found.is_rejected ? 1 : 0);
+  };
+  add("by_gnss", frame.by_gnss ? 1 : 0);
+  add("by_wheels", frame.by_wheels ? 1 : 0);
+  add("in_outage", frame.in_outage ? 1 : 0);
+  chi2("gnss", frame.gnss);
+  chi2("heading", frame.heading);
+  chi2("wheels", frame.wheels);
+  chi2("standing", frame.standing);
+  chi2("inertial", frame.inertial);
+  add("gnss_residual_east_m", frame.gnss_residual_enu.x());
+  add("gnss_residual_north_m", frame.gnss_residual_enu.y());
+  add("gnss_residual_up_m", frame.gnss_residual_enu.z());
+
+  const auto sigma = [&](int part) { return std::sqrt(frame.covariance(part, part)); };
+  static constexpr std::array<std::string_view, 3> kAxes{"x", "y", "z"};
+  for (int k = 0; k < 3; ++k) {
+    const auto axis = kAxes[static_cast<std::size_t>(k)];
+    add(fmt::format("gyro_bias_{}_rad_s", axis), frame.state.gyro_bias[k]);
+    add(fmt::format("gyro_bias_{}_sigma", axis), sigma(NavState::kGyroBias + k));
+    add(fmt::format("accelerometer_bias_{}_m_s2", axis), frame.state.accelerometer_bias[k]);
+    add(fmt::format("accelerometer_bias_{}_sigma", axis), sigma(NavState::kAccelerometerBias + k));
+  }
+  add("sigma_east_m", sigma(NavState::kPosition));
+  add("sigma_north_m", sigma(NavState::kPosition + 1));
+  add("sigma_up_m", sigma(NavState::kPosition + 2));
+  add("sigma_heading_deg", sigma(NavState::kRotation + 2) * kDegrees);
+  add("wheel_scale", frame.state.wheel_scale);
+  add("wheel_scale_sigma", sigma(NavState::kWheelScale));
+  add("speed_mps", frame.state.v_map.norm());
+  add("outage_error_m", frame.outage_error_m);
+  add("outage_distance_m", frame.outage_distance_m);
+  add("solver_iterations", frame.iterations);
+  add("states", frame.states);
+}
+
+std::vector<std::string> names_of_columns() {
+  std::vector<std::string> names;
+  for_each_value(NavFrame{}, [&](std::string name, double) { names.push_back(std::move(name)); });
+  return names;
+}
+
+}  // namespace
+
+NavigationEstimator::NavigationEstimator(const inertial::NavigationOptions& options,
+                                         const dataset::RecordingInfo& recording)
+    : options_(options),
+      recording_(recording.path.string()),
+      imu_(imu_of(recording).label),
+      gnss_(label_of(recording, SensorKind::kGnss)),
+      wheels_(label_of(recording, SensorKind::kWheels)),
+      R_body_imu_(imu_of(recording).T_body_sensor.rotation),
+      T_nav_body_{Eigen::Matrix3d::Identity(), -imu_of(recording).T_body_sensor.translation},
+      navigation_(fitted(options, recording), mounts_of(recording)) {}
+
+const std::vector<std::string>& NavigationEstimator::columns() const {
+  static const std::vector<std::string> kNames = names_of_columns();
+  return kNames;
+}
+
+std::vector<PoseFrame> NavigationEstimator::process(const sensors::Measurement& measurement) {
+  const auto begin = std::chrono::steady_clock::now();
+  std::vector<NavFrame> frames;
+  const std::string& label = sensors::sensor_of(measurement);
+  if (const auto* imu = std::get_if<sensors::ImuSample>(&measurement); imu && label == imu_) {
+    sensors::ImuSample sample = *imu;
+    sample.angular_rate = R_body_imu_ * imu->angular_rate;
+    sample.specific_force = R_body_imu_ * imu->specific_force;
+    frames = navigation_.add(sample);
+  } else if (const auto* fix = std::get_if<sensors::GnssFix>(&measurement); fix && label == gnss_) {
+    frames = navigation_.add(*fix);
+  } else if (const auto* wheels = std::get_if<sensors::WheelOdometry>(&measurement);
+             wheels && label == wheels_) {
+    frames = navigation_.add(*wheels);
+  }
+  milliseconds_ +=
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  return to_body(frames);
+}
+
+std::vector<PoseFrame> NavigationEstimator::finish() {
+  std::vector<PoseFrame> frames = to_body(navigation_.finish());
+  if (frames_ == 0) {
+    throw std::runtime_error(recording_ + ": navigation never began: " + navigation_.start_note());
+  }
+  return frames;
+}
+
+std::vector<PoseFrame> NavigationEstimator::to_body(const std::vector<NavFrame>& frames) {
+  std::vector<PoseFrame> result;
+  for (const NavFrame& frame : frames) {
+    PoseFrame out;
+    out.stamp = frame.state.stamp;
+    out.T_map_body = frame.state.T_map_body() * T_nav_body_;
+    out.velocity.tail<3>() = frame.state.q_map_body.conjugate() * frame.state.v_map;
+    for_each_value(frame, [&](const auto&, double value) { out.record.push_back(value); });
+    out.milliseconds = milliseconds_;
+    milliseconds_ = 0;
+    result.push_back(std::move(out));
+  }
+  frames_ += result.size();
+  return result;
+}
+
+UsedScan NavigationEstimator::used_scan(const sensors::LidarScan&, const PoseFrame&, bool) const {
+  return {};
+}
+
+std::vector<Decision> NavigationEstimator::decisions() const {
+  std::vector<Decision> decisions{{"start", navigation_.start_note()}};
+  if (const auto& plane = navigation_.plane()) {
+    const auto& origin = plane->origin();
+    decisions.push_back(
+        {"map origin", fmt::format("{:.8f} deg north, {:.8f} deg east, {:.3f} m; x east, y north",
+                                   origin.latitude_deg, origin.longitude_deg, origin.altitude_m)});
+    decisions.push_back({"gravity", fmt::format("{:.5f} m/s^2", plane->gravity())});
+  }
+  for (const auto& [what, count] : navigation_.events()) {
+    decisions.push_back({what, fmt::format("{} times", count)});
+  }
+  for (const inertial::OutageResult& outage : navigation_.outages()) {
+    decisions.push_back(
+        {fmt::format("{:.0f} s without GNSS", outage.seconds),
+         fmt::format("{:.3f} m off the first fix after it, {:.3f} % of {:.1f} m (own sigma "
+                     "{:.3f} m)",
+                     outage.error_m,
+                     outage.distance_m > 0 ? 100 * outage.error_m / outage.distance_m : 0,
+                     outage.distance_m, outage.sigma_m)});
+  }
+  return decisions;
+}
+
+std::vector<optimization::FactorUse> NavigationEstimator::factors() const {
+  std::vector<optimization::FactorUse> uses{{"inertial rotation"},
+                                            {"inertial velocity"},
+                                            {"inertial position"},
+                                            {"gyro bias walk"},
+                                            {"accelerometer bias walk"},
+                                            {"wheel scale walk"},
+                                            {"prior"}};
+  if (!gnss_.empty()) {
+    const bool is_pose = options_.gnss.form == inertial::GnssForm::kPose;
+    uses.push_back({is_pose ? "GNSS pose" : "GNSS position"});
+    if (!is_pose) uses.push_back({"heading"});
+    if (is_pose) uses.push_back({"GNSS position"});  // of fixes without a heading
+  }
+  if (!wheels_.empty() && options_.wheels.use) {
+    const bool is_world = options_.wheels.form == inertial::WheelForm::kWorldVelocity;
+    uses.push_back({is_world ? "world velocity" : "wheel velocity"});
+    uses.push_back({"zero velocity"});
+  }
+  return uses;
+}
+
+}  // namespace traverse::pipeline

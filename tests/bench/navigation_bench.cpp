@@ -1,0 +1,59 @@
+// The ten-minute drive of the accuracy claims: figures and how much faster than real time it runs
+// on one thread. Prints a table; tests/inertial checks a shorter drive.
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "inertial/navigation_figures.hpp"
+#include "inertial/simulated_vehicle.hpp"
+
+namespace {
+
+using namespace traverse;
+
+void report(const std::string& name, const inertial::NavigationOptions& options,
+            const testing::SimulatedDrive& drive, double seconds) {
+  inertial::Navigation navigation(options, drive.mounts);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto frames = testing::run(navigation, drive);
+  const double took =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const testing::NavigationFigures f = testing::figures(frames, drive, navigation, 30);
+  std::printf("%-22s %7zu %10.4f %9.4f %10.4f %10.1f\n", name.c_str(), frames.size(),
+              f.position_rmse_m, f.heading_rmse_deg, f.roughness_m, seconds / took);
+  for (const auto& [what, count] : navigation.events()) {
+    std::printf("    %zu x %s\n", count, what.c_str());
+  }
+  for (const auto& outage : navigation.outages()) {
+    std::printf("    outage of %.0f s: %.3f m after %.0f m, %.3f %% (own sigma %.3f m)\n",
+                outage.seconds, outage.error_m, outage.distance_m,
+                100 * outage.error_m / outage.distance_m, outage.sigma_m);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const double seconds = argc > 1 ? std::stod(argv[1]) : 600;
+  const testing::SimulatedSensors sensors;
+  const testing::SimulatedDrive drive = testing::simulate({}, sensors, seconds);
+  std::printf("%-22s %7s %10s %9s %10s %10s\n", "estimator", "frames", "rmse m", "hdg deg",
+              "rough m", "x realtime");
+  testing::SimulatedSensors two_antennas = sensors;
+  two_antennas.heading_sigma_deg = 0.2;
+  const testing::SimulatedDrive with_headings = testing::simulate({}, two_antennas, seconds);
+  report("gins-gnss", testing::two_frame(inertial::Trigger::kGnss, sensors), with_headings,
+         seconds);
+  report("gins-odom", testing::two_frame(inertial::Trigger::kGnssAndWheels, sensors), with_headings,
+         seconds);
+  inertial::NavigationOptions window = testing::window(sensors);
+  report("gins-window", window, drive, seconds);
+  window.outage.spells_s = {10, 30, 60};
+  window.outage.first_s = 60;
+  report("gins-window, outages", window, drive, seconds);
+  window.wheels.use = false;
+  report("  without wheels", window, drive, seconds);
+}

@@ -1,0 +1,238 @@
+#include "traverse/inertial/navigation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "inertial/navigation_figures.hpp"
+#include "inertial/simulated_vehicle.hpp"
+
+namespace traverse::inertial {
+namespace {
+
+using testing::figures;
+using testing::simulate;
+using testing::SimulatedDrive;
+using testing::SimulatedSensors;
+using testing::SimulatedVehicle;
+using testing::two_frame;
+using testing::window;
+
+constexpr double kSettled = 20;  // seconds, when the uncertainty of the start is over
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+TEST(Navigation, WindowFollowsAnUrbanDriveToCentimetres) {
+  const SimulatedSensors sensors;
+  const SimulatedDrive drive = simulate({}, sensors, 60);
+  Navigation navigation(window(sensors), drive.mounts);
+  const auto f = figures(testing::run(navigation, drive), drive, navigation, kSettled);
+  EXPECT_LT(f.position_rmse_m, 0.03);
+  EXPECT_LT(f.heading_rmse_deg, 0.1);
+}
+
+TEST(Navigation, CarriesOnWithWheelsThroughAnOutage) {
+  const SimulatedSensors sensors;
+  const SimulatedDrive drive = simulate({}, sensors, 75);
+  NavigationOptions options = window(sensors);
+  options.outage.spells_s = {30};
+  Navigation navigation(options, drive.mounts);
+  testing::run(navigation, drive);
+  ASSERT_EQ(navigation.outages().size(), 1U);
+  const OutageResult& outage = navigation.outages().front();
+  EXPECT_GT(outage.distance_m, 250);
+  EXPECT_LT(outage.error_m, 0.003 * outage.distance_m);
+  EXPECT_LT(outage.error_m, 4 * outage.sigma_m);
+}
+
+/// Normalised estimation error squared of the 15 unknowns without the wheel scale, averaged over
+/// drives with different noise. Without wheels, whose no-slip is exact here and whose pulses are
+/// no white noise.
+TEST(Navigation, CovarianceIsThatOfItsErrors) {
+  constexpr int kDrives = 16;
+  constexpr int kUnknowns = 15;
+  SimulatedVehicle car;
+  car.light_every_s = 0;
+  double sum = 0;
+  for (int n = 0; n < kDrives; ++n) {
+    SimulatedSensors sensors;
+    sensors.seed = static_cast<std::uint32_t>(n + 1);
+    sensors.gnss_hz = 5;
+    const SimulatedDrive drive = simulate(car, sensors, 45);
+    NavigationOptions options = window(sensors);
+    options.start.accelerometer_bias = sensors.accelerometer_bias;
+    options.gnss.huber = 0;
+    Navigation navigation(options, drive.mounts);
+    const auto frames = testing::run(navigation, drive, true, false);
+    const NavFrame& last = frames.back();
+    const std::size_t k = testing::truth_index(last);
+    NavState truth = last.state;
+    const geometry::Pose3 T = testing::truth_at(last, drive, navigation);
+    truth.q_map_body = Eigen::Quaterniond(T.rotation);
+    truth.p_map = T.translation;
+    truth.v_map = drive.velocity[k];
+    truth.gyro_bias = drive.gyro_bias[k];
+    truth.accelerometer_bias = drive.accelerometer_bias[k];
+    const NavState::Tangent e = truth.minus(last.state);
+    const Eigen::Matrix<double, kUnknowns, kUnknowns> P =
+        last.covariance.topLeftCorner<kUnknowns, kUnknowns>();
+    sum += e.head<kUnknowns>().dot(P.ldlt().solve(e.head<kUnknowns>()));
+  }
+  // 95 % bounds of chi-square with 240 degrees of freedom, over 16.
+  EXPECT_GT(sum / kDrives, 198.98 / kDrives);
+  EXPECT_LT(sum / kDrives, 284.80 / kDrives);
+}
+
+TEST(Navigation, MarginalisesWithoutLoss) {
+  SimulatedSensors sensors;
+  sensors.gnss_hz = 2;
+  const SimulatedDrive drive = simulate({}, sensors, 40);
+  const auto newest = [&](int states) {
+    NavigationOptions options = window(sensors);
+    options.window.states = states;
+    Navigation navigation(options, drive.mounts);
+    return testing::run(navigation, drive).back();
+  };
+  const NavFrame batch = newest(1000);
+  for (const int states : {2, 10}) {
+    const NavFrame lagged = newest(states);
+    const NavState::Tangent d = lagged.state.minus(batch.state);
+    for (int k = 0; k < NavState::kTangent; ++k) {
+      const double sigma = std::sqrt(batch.covariance(k, k));
+      EXPECT_LT(std::abs(d[k]), 0.3 * sigma) << states << " states, unknown " << k;
+      EXPECT_NEAR(std::sqrt(lagged.covariance(k, k)) / sigma, 1, 0.1) << states << ", " << k;
+    }
+  }
+}
+
+TEST(Navigation, TwoFramesTakeTheFactorsOfWhatMadeThem) {
+  SimulatedSensors sensors;
+  sensors.heading_sigma_deg = 0.2;
+  const SimulatedDrive drive = simulate({}, sensors, 20);
+  Navigation navigation(two_frame(Trigger::kGnssAndWheels, sensors), drive.mounts);
+  int by_gnss = 0;
+  int by_wheels = 0;
+  for (const NavFrame& frame : testing::run(navigation, drive)) {
+    EXPECT_LE(frame.states, 2);
+    EXPECT_NE(frame.by_gnss, frame.by_wheels);
+    EXPECT_EQ(frame.gnss.rows, frame.by_gnss ? 6 : 0);
+    // The first readings lie before the IMU's history of the speed.
+    const bool is_begun = by_wheels > 3;
+    if (is_begun) {
+      EXPECT_EQ(frame.wheels.rows + frame.standing.rows > 0, frame.by_wheels);
+    }
+    (frame.by_gnss ? by_gnss : by_wheels) += 1;
+  }
+  EXPECT_GT(by_gnss, 100);
+  EXPECT_GT(by_wheels, 100);
+
+  Navigation gnss_only(two_frame(Trigger::kGnss, sensors), drive.mounts);
+  for (const NavFrame& frame : testing::run(gnss_only, drive)) EXPECT_TRUE(frame.by_gnss);
+}
+
+TEST(Navigation, ReadingsOfOneMomentShareAState) {
+  SimulatedSensors sensors;
+  sensors.heading_sigma_deg = 0.2;
+  sensors.wheel_offset_s = 0;
+  const SimulatedDrive drive = simulate({}, sensors, 15);
+  Navigation navigation(two_frame(Trigger::kGnssAndWheels, sensors), drive.mounts);
+  geometry::Stamp last;
+  for (const NavFrame& frame : testing::run(navigation, drive)) {
+    EXPECT_LT(last, frame.state.stamp);
+    last = frame.state.stamp;
+  }
+}
+
+TEST(Navigation, RejectsAFixThatIsFarOffAndCarriesOn) {
+  const SimulatedSensors sensors;
+  SimulatedDrive drive = simulate({}, sensors, 40);
+  drive.fixes[300].latitude_deg += 1e-4;  // 11 m
+  Navigation navigation(window(sensors), drive.mounts);
+  const auto frames = testing::run(navigation, drive);
+  const auto rejected = std::find_if(frames.begin(), frames.end(), [&](const NavFrame& frame) {
+    return frame.state.stamp == drive.fixes[300].stamp;
+  });
+  ASSERT_NE(rejected, frames.end());
+  EXPECT_TRUE(rejected->gnss.is_rejected);
+  EXPECT_LT(figures(frames, drive, navigation, kSettled).position_rmse_m, 0.03);
+}
+
+TEST(Navigation, BelievesFixesThatDisagreeForLong) {
+  const SimulatedSensors sensors;
+  SimulatedDrive drive = simulate({}, sensors, 50);
+  for (std::size_t k = 300; k < drive.fixes.size(); ++k) drive.fixes[k].latitude_deg += 1e-4;
+  Navigation navigation(window(sensors), drive.mounts);
+  const auto frames = testing::run(navigation, drive);
+  EXPECT_EQ(navigation.events().at("navigation begun again after too many fixes were rejected"),
+            1U);
+  EXPECT_FALSE(frames.back().gnss.is_rejected);
+}
+
+TEST(Navigation, DeadReckonsWithoutAnyFix) {
+  const SimulatedSensors sensors;
+  const SimulatedDrive drive = simulate({}, sensors, 40);
+  NavigationOptions options = window(sensors);
+  options.start.gnss_wait_s = 2;
+  Navigation navigation(options, drive.mounts);
+  const auto frames = testing::run(navigation, drive, false, true);
+  ASSERT_FALSE(frames.empty());
+  EXPECT_FALSE(navigation.plane().has_value());
+  double way = 0;
+  for (std::size_t k = 1; k < frames.size(); ++k) {
+    way += (frames[k].state.p_map - frames[k - 1].state.p_map).norm();
+  }
+  double truth = 0;
+  for (std::size_t k = 1; k < drive.truth.size(); ++k) {
+    truth += (drive.truth[k].translation - drive.truth[k - 1].translation).norm();
+  }
+  EXPECT_NEAR(way / truth, 1, 0.03);
+}
+
+TEST(Navigation, SaysWhyItNeverBegan) {
+  const SimulatedSensors sensors;
+  const SimulatedDrive drive = simulate({}, sensors, 5);
+  Navigation nothing(window(sensors), drive.mounts);
+  EXPECT_TRUE(nothing.finish().empty());
+  EXPECT_EQ(nothing.start_note(), "no IMU reading came");
+  Navigation standing(window(sensors), drive.mounts);
+  EXPECT_TRUE(testing::run(standing, drive).empty());
+  EXPECT_NE(standing.start_note().find("no heading"), std::string::npos);
+}
+
+TEST(Navigation, CountsWhatItCannotUse) {
+  const SimulatedSensors sensors;
+  SimulatedDrive drive = simulate({}, sensors, 30);
+  drive.imu[2000].angular_rate.x() = kNaN;
+  drive.imu[2100].stamp = drive.imu[2099].stamp;
+  drive.imu.erase(drive.imu.begin() + 2200, drive.imu.begin() + 2220);  // 0.2 s
+  drive.fixes[200].latitude_deg = kNaN;
+  drive.fixes[201].altitude_m = kNaN;
+  drive.fixes[202].covariance_enu = Eigen::Matrix3d::Zero();
+  drive.fixes[203].covariance_enu = Eigen::Matrix3d::Constant(kNaN);
+  drive.fixes[204].heading_deg = kNaN;
+  Navigation navigation(window(sensors), drive.mounts);
+  const auto frames = testing::run(navigation, drive);
+  const auto& events = navigation.events();
+  EXPECT_EQ(events.at("IMU reading that is not finite"), 1U);
+  EXPECT_EQ(events.at("IMU reading not later than the one before"), 1U);
+  EXPECT_GE(events.at("gap between IMU readings"), 1U);
+  EXPECT_EQ(events.at("fix that is no place"), 1U);
+  EXPECT_EQ(events.at("fix without altitude"), 1U);
+  EXPECT_EQ(events.at("fix whose covariance is not positive definite"), 2U);
+  for (const NavFrame& frame : frames) EXPECT_TRUE(frame.covariance.allFinite());
+  EXPECT_LT(figures(frames, drive, navigation, 28).position_rmse_m, 0.05);
+}
+
+TEST(Navigation, StartsAnewAfterALongGap) {
+  const SimulatedSensors sensors;
+  SimulatedDrive drive = simulate({}, sensors, 60);
+  drive.imu.erase(drive.imu.begin() + 2500, drive.imu.begin() + 2800);  // 3 s
+  Navigation navigation(window(sensors), drive.mounts);
+  const auto frames = testing::run(navigation, drive);
+  EXPECT_EQ(navigation.events().at("IMU gap after which navigation started anew"), 1U);
+  EXPECT_LT(figures(frames, drive, navigation, 50).position_rmse_m, 0.05);
+}
+
+}  // namespace
+}  // namespace traverse::inertial
