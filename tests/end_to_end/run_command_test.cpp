@@ -110,9 +110,9 @@ TEST_F(RunCommand, EvaluateRedoesTheRunsFigures) {
 TEST_F(RunCommand, TheReportCanBeMadeAgainFromTheFolder) {
   fs::copy(file("run"), file("copy"), fs::copy_options::recursive);
   // The commands that open a frame in a replay name the folder.
-  const std::string before = std::regex_replace(files::read_text(file("copy/report.html")),
-                                                std::regex(file("run") + " --at"),
-                                                file("copy") + " --at");
+  const std::string before =
+      std::regex_replace(files::read_text(file("copy/report.html")),
+                         std::regex(file("run") + " --at"), file("copy") + " --at");
   fs::remove(file("copy/report.html"));
   fs::remove_all(file("copy/images"));
   ASSERT_EQ(run_program("report " + file("copy")).status, 0);

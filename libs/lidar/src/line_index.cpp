@@ -77,7 +77,8 @@ struct LineIndex::Search {
 };
 
 LineIndex::LineIndex() : LineIndex(LinedPoints{}) {}
-LineIndex::LineIndex(LinedPoints points) : search_(std::make_shared<const Search>(std::move(points))) {}
+LineIndex::LineIndex(LinedPoints points)
+    : search_(std::make_shared<const Search>(std::move(points))) {}
 
 std::size_t LineIndex::size() const { return search_->points.size(); }
 

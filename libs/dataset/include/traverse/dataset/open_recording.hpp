@@ -34,7 +34,8 @@ namespace traverse::dataset {
 ///       gnss: {position_m: [0, 0, 0], heading_offset_deg: 0}
 ///       wheels: {position_m: [0, 0, 0], left_m_per_pulse: 0, right_m_per_pulse: 0}
 ///     log: {angular_rate: rad, pulses: interval, time_unit_s: 1}   of a text log
-///     csv: ...                      columns of a folder of CSV files: share/recordings has examples
+///     csv: ...                      columns of a folder of CSV files: share/recordings has
+///     examples
 struct OpenOptions {
   /// Statements in the form of traverse.yaml, stronger than the file: from a YAML file and from
   /// --recording key=value on the command line.
