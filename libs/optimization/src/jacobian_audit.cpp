@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "factor_derivatives.hpp"
 
@@ -32,6 +34,22 @@ void compare(const Eigen::MatrixXd& analytic, const Eigen::MatrixXd& other, std:
   }
 }
 
+/// A factor at a random state that is away from zero residual, where a norm has no derivative and
+/// a wrong Jacobian of it may look right.
+std::pair<FactorSample, Linearised> draw(const FactorKind& kind, Perturbation perturbation,
+                                         double least_residual, RandomStates& random) {
+  constexpr int kMostDraws = 10000;
+  for (int i = 0; i < kMostDraws; ++i) {
+    FactorSample sample = kind.make(random, perturbation);
+    Linearised analytic = linearise(*sample.analytic, kind.blocks, perturbation, sample.state);
+    if (!(analytic.residual.norm() < least_residual))  // nor one that is not a number
+      return {std::move(sample), std::move(analytic)};
+  }
+  throw std::invalid_argument(kind.name + ": none of " + std::to_string(kMostDraws) +
+                              " random states has a residual of " + std::to_string(least_residual) +
+                              " or more");
+}
+
 FactorAudit audit(const FactorKind& kind, Perturbation perturbation, const AuditOptions& options) {
   FactorAudit result;
   result.factor = kind.name;
@@ -42,9 +60,7 @@ FactorAudit audit(const FactorKind& kind, Perturbation perturbation, const Audit
 
   RandomStates random(options.seed);
   for (std::size_t state = 0; state < options.states; ++state) {
-    const FactorSample sample = kind.make(random, perturbation);
-    const Linearised analytic =
-        linearise(*sample.analytic, kind.blocks, perturbation, sample.state);
+    const auto [sample, analytic] = draw(kind, perturbation, options.least_residual, random);
     const Linearised automatic =
         linearise(*sample.automatic, kind.blocks, perturbation, sample.state);
     const auto numeric =

@@ -77,6 +77,7 @@ std::string to_json(const JacobianAudit& audit) {
   const Json json{{"passed", audit.passed()},
                   {"states", audit.options.states},
                   {"seed", audit.options.seed},
+                  {"least_residual", audit.options.least_residual},
                   {"tolerance",
                    {{"automatic", audit.options.automatic_tolerance},
                     {"numeric", audit.options.numeric_tolerance}}},
@@ -88,8 +89,8 @@ JacobianAudit audit_from_json(const std::string& text) {
   try {
     const Json json = Json::parse(text);
     JacobianAudit audit;
-    audit.options = {json.at("states"), json.at("seed"), json.at("tolerance").at("automatic"),
-                     json.at("tolerance").at("numeric")};
+    audit.options = {json.at("states"), json.at("seed"), json.at("least_residual"),
+                     json.at("tolerance").at("automatic"), json.at("tolerance").at("numeric")};
     for (const Json& factor : json.at("factors")) audit.factors.push_back(factor_from(factor));
     return audit;
   } catch (const Json::exception& error) {
