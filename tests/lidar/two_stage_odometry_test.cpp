@@ -11,13 +11,23 @@
 #include "traverse/optimization/jacobian_audit.hpp"
 #include "traverse/sensors/rings.hpp"
 
+#include "lidar/odometry_trial.hpp"
 #include "lidar/simulated_drive.hpp"
 #include "lidar/simulated_gyro.hpp"
 
 namespace traverse::lidar {
 namespace {
 
+using testing::position_error;
+using testing::rotation_error;
 using testing::SimulatedDrive;
+using testing::worst_position_error;
+
+std::vector<Frame> run(const SimulatedDrive& drive, const TwoStageOdometryOptions& options,
+                       const std::vector<sensors::ImuSample>& imu = {}) {
+  TwoStageOdometry odometry(options, drive.scanner.profile, false);
+  return testing::frames_of(odometry, drive, imu);
+}
 
 /// The preset aloam or loam, with one hypothesis of the initial speed: the search has its own test.
 TwoStageOdometryOptions preset(SweepMotion sweep_motion) {
@@ -27,38 +37,6 @@ TwoStageOdometryOptions preset(SweepMotion sweep_motion) {
   options.imu.use = sweep_motion == SweepMotion::kDeskew;
   options.start.slowest_mps = options.start.fastest_mps = 12;
   return options;
-}
-
-std::vector<Frame> run(const SimulatedDrive& drive, const TwoStageOdometryOptions& options,
-                       const std::vector<sensors::ImuSample>& imu = {}) {
-  TwoStageOdometry odometry(options, drive.scanner.profile, false);
-  std::vector<Frame> frames;
-  auto sample = imu.begin();
-  for (const auto& scan : drive.scans) {
-    for (; sample != imu.end() && sample->stamp <= scan.stamp; ++sample) odometry.observe(*sample);
-    for (const Frame& frame : odometry.process(scan)) frames.push_back(frame);
-  }
-  for (const Frame& frame : odometry.finish()) frames.push_back(frame);
-  return frames;
-}
-
-double position_error(const Frame& frame, const SimulatedDrive& drive) {
-  return (frame.T_map_lidar.translation - drive.truth[frame.index].translation).norm();
-}
-
-double rotation_error(const Frame& frame, const SimulatedDrive& drive) {
-  return geometry::angle_of(drive.truth[frame.index].rotation.transpose() *
-                            frame.T_map_lidar.rotation);
-}
-
-double worst_position_error(const std::vector<Frame>& frames, const SimulatedDrive& drive) {
-  double worst = 0;
-  for (const Frame& frame : frames) {
-    const double error = position_error(frame, drive);
-    if (!std::isfinite(error)) return error;  // std::max would pass over it
-    worst = std::max(worst, error);
-  }
-  return worst;
 }
 
 simulation::Drive swerving() {

@@ -10,21 +10,18 @@
 #include "traverse/lidar/factor_kinds.hpp"
 #include "traverse/optimization/jacobian_audit.hpp"
 
+#include "lidar/odometry_trial.hpp"
 #include "lidar/simulated_drive.hpp"
 
 namespace traverse::lidar::voxel {
 namespace {
 
 using testing::SimulatedDrive;
+using testing::worst_position_error;
 
 std::vector<Frame> run(const SimulatedDrive& drive, const VoxelMapOdometryOptions& options) {
   VoxelMapOdometry odometry(options, drive.scanner.profile, false);
-  std::vector<Frame> frames;
-  for (const auto& scan : drive.scans) {
-    for (const Frame& frame : odometry.process(scan)) frames.push_back(frame);
-  }
-  for (const Frame& frame : odometry.finish()) frames.push_back(frame);
-  return frames;
+  return testing::frames_of(odometry, drive);
 }
 
 /// The defaults, with few hypotheses of the initial speed: the search has its own test.
@@ -33,15 +30,6 @@ VoxelMapOdometryOptions quick_start() {
   options.start.slowest_mps = 8;
   options.start.fastest_mps = 16;
   return options;
-}
-
-double worst_position_error(const std::vector<Frame>& frames, const SimulatedDrive& drive) {
-  double worst = 0;
-  for (const Frame& frame : frames) {
-    worst = std::max(worst,
-                     (frame.T_map_lidar.translation - drive.truth[frame.index].translation).norm());
-  }
-  return worst;
 }
 
 class VoxelStreet : public ::testing::Test {
