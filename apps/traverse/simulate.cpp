@@ -182,8 +182,9 @@ void simulate(const SimulateArguments& arguments) {
 
   const bool kitti = is_kitti(arguments);
   const dataset::RecordingInfo info = describe(simulation, arguments, scans);
-  const dataset::Reference truth{simulation.truth(sweeps), arguments.output,
-                                 "exact truth of the simulation"};
+  const dataset::Reference truth{
+      kitti ? simulation.truth(sweeps) : simulation.truth_of_all_sensors(sweeps), arguments.output,
+      "exact truth of the simulation"};
   const auto writer =
       kitti ? dataset::write_scan_folder(arguments.output, info, truth, info.rig.sensors[0].label,
                                          dataset::ScanFolderFormat::kKitti)

@@ -49,14 +49,15 @@ function(traverse_library name)
     PRIVATE ${ARG_PRIVATELY_USES} traverse_build_flags)
 endfunction()
 
-# traverse_test(NAME [WHOLE] SOURCES ... USES ... [TIMEOUT seconds])
+# traverse_test(NAME SOURCES ... USES ... [SHARDS n] [TIMEOUT seconds])
 #
-# Defines the GoogleTest program NAME_test and registers each of its cases with CTest; with WHOLE the
-# program is one test, for suites whose set-up is dear.
+# Defines the GoogleTest program NAME_test and registers it with CTest: once, or as n shards that
+# run side by side. Cases share a process, because loading the libraries and setting up a suite take
+# longer than most of them; `NAME_test --gtest_filter=SUITE.CASE` runs one.
 function(traverse_test name)
-  cmake_parse_arguments(ARG "WHOLE" "TIMEOUT" "SOURCES;USES" ${ARGN})
+  cmake_parse_arguments(ARG "" "SHARDS;TIMEOUT" "SOURCES;USES" ${ARGN})
   if(NOT ARG_TIMEOUT)
-    set(ARG_TIMEOUT 600)
+    set(ARG_TIMEOUT 1200)
   endif()
   add_executable(${name}_test ${ARG_SOURCES})
   target_include_directories(${name}_test PRIVATE ${CMAKE_SOURCE_DIR}/tests)
@@ -64,11 +65,15 @@ function(traverse_test name)
     TRAVERSE_SOURCE_DIR="${CMAKE_SOURCE_DIR}" TRAVERSE_SHARE_DIR="${CMAKE_SOURCE_DIR}/share")
   target_link_libraries(${name}_test
     PRIVATE ${ARG_USES} GTest::gmock GTest::gtest_main traverse_build_flags)
-  if(ARG_WHOLE)
+  if(NOT ARG_SHARDS)
     add_test(NAME ${name} COMMAND ${name}_test)
     set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT})
-  else()
-    gtest_discover_tests(${name}_test
-      TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+    return()
   endif()
+  math(EXPR last "${ARG_SHARDS} - 1")
+  foreach(shard RANGE ${last})
+    add_test(NAME ${name}.${shard} COMMAND ${name}_test)
+    set_tests_properties(${name}.${shard} PROPERTIES TIMEOUT ${ARG_TIMEOUT}
+      ENVIRONMENT "GTEST_TOTAL_SHARDS=${ARG_SHARDS};GTEST_SHARD_INDEX=${shard}")
+  endforeach()
 endfunction()

@@ -87,6 +87,23 @@ TEST(Simulation, TruthIsOfTheBodyAtTheStamps) {
   EXPECT_NEAR(geometry::seconds_between(truth.stamp(0), truth.stamp(2)), 0.2, 1e-9);
 }
 
+TEST(Simulation, ThereIsATruePoseForEverySample) {
+  const Simulation simulation = corridor();
+  const geometry::Trajectory truth = simulation.truth_of_all_sensors({5, 8});
+  std::size_t samples = 0;
+  for (const Measurement& m : run(simulation, {5, 8}, 1)) {
+    double nearest_s = 1;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      const double off = std::abs(geometry::seconds_between(truth.stamp(i), stamp_of(m)));
+      nearest_s = std::min(nearest_s, off);
+    }
+    EXPECT_LT(nearest_s, 1e-8) << sensor_of(m);
+    ++samples;
+  }
+  EXPECT_GT(samples, 40U);  // 0.3 s of IMU, wheels, GNSS, and the sweeps
+  for (std::size_t i = 1; i < truth.size(); ++i) EXPECT_LT(truth.stamp(i - 1), truth.stamp(i));
+}
+
 TEST(RingOrder, PointsGoRoundRingAfterRing) {
   const sensors::LidarScan scan = corridor().lidar().scan(12);
   const sensors::LidarScan ordered = in_ring_order(scan);

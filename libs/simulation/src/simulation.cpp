@@ -1,6 +1,7 @@
 #include "traverse/simulation/simulation.hpp"
 
 #include <cmath>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -72,6 +73,29 @@ geometry::Trajectory Simulation::truth(const SweepRange& sweeps) const {
   for (std::size_t i = sweeps.first; i < sweeps.end; ++i) {
     const double seconds = lidar_.stamp_s(i);
     truth.push_back(stamp_at(seconds), motion_.state(seconds).T_map_body);
+  }
+  return truth;
+}
+
+geometry::Trajectory Simulation::truth_of_all_sensors(const SweepRange& sweeps) const {
+  const double begin_s = lidar_.begin_s(sweeps.first);
+  const double end_s = lidar_.begin_s(sweeps.end);
+  std::map<geometry::Stamp, double> seconds_at;  // in order, each moment once
+  for (std::size_t i = sweeps.first; i < sweeps.end; ++i) {
+    seconds_at.emplace(stamp_at(lidar_.stamp_s(i)), lidar_.stamp_s(i));
+  }
+  const auto add = [&](bool mounted, double rate_hz) {
+    if (!mounted) return;
+    for (auto i = std::ceil(begin_s * rate_hz); i < end_s * rate_hz; ++i) {
+      seconds_at.emplace(stamp_at(i / rate_hz), i / rate_hz);
+    }
+  };
+  add(world_.imu.mounted, world_.imu.rate_hz);
+  add(world_.wheels.mounted, world_.wheels.rate_hz);
+  add(world_.gnss.mounted, world_.gnss.rate_hz);
+  geometry::Trajectory truth;
+  for (const auto& [stamp, seconds] : seconds_at) {
+    truth.push_back(stamp, motion_.state(seconds).T_map_body);
   }
   return truth;
 }

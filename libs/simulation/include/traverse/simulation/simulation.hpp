@@ -37,6 +37,8 @@ class Simulation {
   /// The exact poses T_map_body at the stamps of the sweeps. The map is the plane east, north, up
   /// at the world's origin.
   geometry::Trajectory truth(const SweepRange& sweeps) const;
+  /// The same, and between them at the moments of all samples of the other sensors.
+  geometry::Trajectory truth_of_all_sensors(const SweepRange& sweeps) const;
   /// The calibration as YAML: where the sensors sit, and the errors that they keep.
   std::string calibration() const;
 
