@@ -47,7 +47,8 @@ TEST(Summary, AveragesRepeatsBeforeRecordings) {
 }
 
 TEST(Summary, GivesBothKittiAverages) {
-  const auto& kitti = summarise(made_results(), {}, kApe)[0].kitti.value();
+  const auto variants = summarise(made_results(), {}, kApe);
+  const auto& kitti = variants[0].kitti.value();
   EXPECT_EQ(kitti.segments, 110U);
   EXPECT_EQ(kitti.recordings, 2U);
   EXPECT_NEAR(kitti.translation_all_segments_percent, (90 * 2 + 10 * 1 + 10 * 1) / 110.0, 1e-12);

@@ -1,5 +1,6 @@
 #include "traverse/batch/run_process.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -7,7 +8,10 @@
 #include <cstdio>
 #include <fcntl.h>
 #include <fstream>
+#include <memory>
 #include <poll.h>
+#include <string>
+#include <string_view>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
@@ -67,12 +71,20 @@ class Descriptor {
   ::_exit(kCannotStart);
 }
 
-double resident_mb(pid_t pid) {
-  std::ifstream stream(fmt::format("/proc/{}/statm", pid));
-  double mapped = 0;
-  double resident = 0;
-  stream >> mapped >> resident;
-  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1024 * 1024);
+/// The memory that a process holds ("VmRSS"), or the most that its program ever held ("VmHWM");
+/// 0 when it has ended.
+double memory_mb(pid_t pid, std::string_view which) {
+  std::ifstream stream(fmt::format("/proc/{}/status", pid));
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with(which)) return std::stod(line.substr(which.size() + 1)) / 1024;
+  }
+  return 0;
+}
+
+/// Waits until the new process, which alone holds the other end, has become its program.
+void wait_for_program(int pipe) {
+  char nothing = 0;
+  while (::read(pipe, &nothing, 1) < 0 && errno == EINTR) continue;
 }
 
 double seconds(const timeval& time) {
@@ -93,6 +105,10 @@ ProcessEnd run_process(const ProcessStart& start, const std::atomic<bool>& stop)
   const auto began = Clock::now();
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - began).count(); };
   const pid_t parent = ::getpid();
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("a pipe");
+  const Descriptor program_begins(ends[0], "a pipe");
+  auto before_program = std::make_unique<Descriptor>(ends[1], "a pipe");
   const pid_t pid = ::fork();
   if (pid < 0) fail("a new process");
   if (pid == 0) {
@@ -103,8 +119,11 @@ ProcessEnd run_process(const ProcessStart& start, const std::atomic<bool>& stop)
   const Descriptor handle(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)),
                           "watching a process");
   start.started(pid);
+  before_program.reset();
+  wait_for_program(program_begins.number());  // until then the memory seen is that of this process
 
   ProcessEnd end;
+  end.peak_memory_mb = memory_mb(pid, "VmHWM:");
   const auto end_it = [&](Cause cause) {
     end.cause = cause;
     ::kill(-pid, SIGKILL);
@@ -112,11 +131,12 @@ ProcessEnd run_process(const ProcessStart& start, const std::atomic<bool>& stop)
   pollfd ended{handle.number(), POLLIN, 0};
   while (::poll(&ended, 1, kLookEvery_ms) <= 0) {
     if (end.cause != Cause::kItself) continue;  // it is dying
+    end.peak_memory_mb = std::max(end.peak_memory_mb, memory_mb(pid, "VmHWM:"));
     if (stop) {
       end_it(Cause::kStopped);
     } else if (start.time_limit_s > 0 && elapsed() > start.time_limit_s) {
       end_it(Cause::kTimeLimit);
-    } else if (start.memory_limit_mb > 0 && resident_mb(pid) > start.memory_limit_mb) {
+    } else if (start.memory_limit_mb > 0 && memory_mb(pid, "VmRSS:") > start.memory_limit_mb) {
       end_it(Cause::kMemoryLimit);
     }
   }
@@ -127,11 +147,15 @@ ProcessEnd run_process(const ProcessStart& start, const std::atomic<bool>& stop)
   }
   end.wall_s = elapsed();
   end.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
-  end.peak_memory_mb = static_cast<double>(usage.ru_maxrss) / 1024;
+  // The system's own figure counts what the process held before it became the program: a copy of
+  // this one. Above that it is the program's, and exact; else it is a bound, if nothing was seen.
+  const double counted_mb = static_cast<double>(usage.ru_maxrss) / 1024;
+  const bool counted_is_programs = counted_mb > memory_mb(parent, "VmHWM:");
+  if (counted_is_programs || end.peak_memory_mb == 0) end.peak_memory_mb = counted_mb;
   if (WIFEXITED(status)) end.exit_status = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
-  if (end.cause == Cause::kItself && start.memory_limit_mb > 0 &&
-      end.peak_memory_mb > start.memory_limit_mb) {
+  if (end.cause == Cause::kItself && start.memory_limit_mb > 0 && counted_is_programs &&
+      counted_mb > start.memory_limit_mb) {
     end.cause = Cause::kMemoryLimit;  // it came and went between two looks
   }
   return end;
