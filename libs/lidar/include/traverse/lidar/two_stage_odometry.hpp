@@ -7,6 +7,7 @@
 
 #include "traverse/config/binder.hpp"
 #include "traverse/lidar/frame.hpp"
+#include "traverse/lidar/held_back.hpp"
 #include "traverse/lidar/imu_prediction.hpp"
 #include "traverse/lidar/odometry.hpp"
 #include "traverse/lidar/scan_to_map.hpp"
@@ -67,6 +68,9 @@ class TwoStageOdometry final : public Odometry {
   std::unique_ptr<Odometry> clone() const override {
     return std::make_unique<TwoStageOdometry>(*this);
   }
+  /// Map and matches of the second stage; empty without it.
+  std::vector<Eigen::Vector3d> local_map() const override;
+  std::vector<MatchedPoint> matches() const override;
 
   /// Those of both stages: swept ones where the first moves each point by its share.
   std::vector<optimization::FactorUse> factors() const override;
@@ -81,8 +85,8 @@ class TwoStageOdometry final : public Odometry {
     StageTimes ms;
   };
 
-  std::vector<Frame> begin();
-  geometry::Twist initial_velocity(StageTimes& ms) const;
+  std::vector<Frame> advance_all(std::vector<Prepared> scans);
+  geometry::Twist initial_velocity(std::vector<Prepared>& first) const;
   Frame advance(const Prepared& scan);
   MotionPrediction predict(geometry::Stamp stamp) const;
 
@@ -94,8 +98,7 @@ class TwoStageOdometry final : public Odometry {
   ScanToMap map_;
   ImuPrediction imu_;
 
-  std::vector<Prepared> held_back_;
-  bool begun_ = false;
+  HeldBack<Prepared> held_back_;
 
   std::size_t frames_ = 0;
   geometry::Stamp last_stamp_;
@@ -103,6 +106,7 @@ class TwoStageOdometry final : public Odometry {
   geometry::Pose3 T_map_odom_;
   geometry::Pose3 T_map_last_;
   geometry::Twist velocity_ = geometry::Twist::Zero();  // between the last two frames
+  Matches matches_;                                     // of the last frame, in the map
 };
 
 }  // namespace traverse::lidar
