@@ -51,6 +51,7 @@ class ScanToMap {
   /// Of the edge map, then of the planar map; map frame.
   std::vector<Eigen::Vector3d> points() const;
 
+  std::size_t bytes() const { return edge_map_.bytes() + planar_map_.bytes(); }
   std::size_t size() const { return edge_map_.size() + planar_map_.size(); }
   const LocalMap& edge_map() const { return edge_map_; }
   const LocalMap& planar_map() const { return planar_map_; }

@@ -53,6 +53,7 @@ class ScanToMapOdometry final : public Odometry {
   std::unique_ptr<Odometry> clone() const override {
     return std::make_unique<ScanToMapOdometry>(*this);
   }
+  std::size_t bytes() const override { return map_.bytes() + matches_.bytes(); }
   std::vector<Eigen::Vector3d> local_map() const override { return map_.points(); }
   std::vector<MatchedPoint> matches() const override;
 

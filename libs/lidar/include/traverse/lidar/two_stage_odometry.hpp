@@ -67,7 +67,9 @@ class TwoStageOdometry final : public Odometry {
   const std::vector<std::string>& further_columns() const override;
   std::unique_ptr<Odometry> clone() const override {
     return std::make_unique<TwoStageOdometry>(*this);
-  }
+  }  /// Copies share the points of the last sweep.
+  std::size_t bytes() const override { return map_.bytes() + matches_.bytes(); }
+
   /// Map and matches of the second stage; empty without it.
   std::vector<Eigen::Vector3d> local_map() const override;
   std::vector<MatchedPoint> matches() const override;

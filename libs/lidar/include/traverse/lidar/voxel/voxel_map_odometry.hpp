@@ -53,6 +53,8 @@ class VoxelMapOdometry final : public Odometry {
   std::unique_ptr<Odometry> clone() const override {
     return std::make_unique<VoxelMapOdometry>(*this);
   }
+  std::size_t bytes() const override { return map_.bytes() + matches_.bytes(); }
+
   /// The middle of the points of each cell that has a plane or a line.
   std::vector<Eigen::Vector3d> local_map() const override;
   std::vector<MatchedPoint> matches() const override;
