@@ -109,8 +109,6 @@ class WindowedProgram {
   }
 
   std::string title() const { return screen_.run("xdotool getwindowname " + window_); }
-  /// As the cross in the title bar does.
-  void close() { screen_.run("xdotool windowquit " + window_); }
 
   bool has_ended() const { return std::filesystem::exists(status_file_); }
   int exit_status() {

@@ -25,9 +25,9 @@ constexpr int kHeight = 700;
 constexpr std::size_t kFrames = 40;
 
 // Where things are in a window of this size.
-constexpr testing::Place kPresetBox{0, 0};
-constexpr testing::Place kThirdPreset{0, 0};
-constexpr testing::Place kRestartHere{0, 0};
+constexpr testing::Place kPresetBox{850, 378};
+constexpr testing::Place kFirstPreset{740, 370};  // of the list that the box opens
+constexpr testing::Place kRestartHere{780, 465};
 
 /// Real key presses and clicks; the frame on show is told by the name of a screenshot.
 class WindowTest : public ::testing::Test {
@@ -140,13 +140,15 @@ TEST_F(WindowTest, ChangesThePipelineByMouse) {
   ASSERT_TRUE(shows(program, 9));
   EXPECT_THAT(program.title(), HasSubstr("(traverse)"));
   program.click(kPresetBox);
-  program.click(kThirdPreset);
+  program.click(kFirstPreset);
   EXPECT_THAT(program.title(), HasSubstr("(traverse)")) << "chosen, not yet begun";
   program.click(kRestartHere);
-  EXPECT_TRUE(eventually([&] { return program.title().find("(floam)") != std::string::npos; }))
+  EXPECT_TRUE(eventually([&] { return program.title().find("(aloam)") != std::string::npos; }))
       << program.title();
   EXPECT_TRUE(shows(program, 9));
-  program.close();
+  program.press("Home");
+  EXPECT_TRUE(shows(program, 9)) << "it began here";
+  program.press("q");
   EXPECT_EQ(program.exit_status(), 0) << program.messages();
   EXPECT_EQ(program.messages(), "");
 }
@@ -202,7 +204,10 @@ TEST_F(WindowTest, OpensARecordingThatIsCutOff) {
   std::string bytes = files::read_text(*shared_ / "street.rawlog");
   bytes.resize(bytes.size() * 6 / 10);
   files::write_text(folder_ / "cut.rawlog", bytes);
-  fs::copy_file(*shared_ / "street.traverse.yaml", folder_ / "cut.traverse.yaml");
+  for (const char* beside : {"street.traverse.yaml", "street.reference.tum"}) {
+    fs::copy_file(*shared_ / beside, folder_ / beside);
+  }
+  fs::rename(folder_ / "street.traverse.yaml", folder_ / "cut.traverse.yaml");
   files::write_text(folder_ / "script", "end\nsettle\nscreenshot end.png\n");
   WindowedProgram program(*screen_, folder_.path(),
                           "cut.rawlog --headless --script script --no-index-cache");
