@@ -69,7 +69,7 @@ void Chart::draw(NVGcontext* context) {
   const bool has_now = present_ < values_.size() && std::isfinite(values_[present_]);
   text(context, x0, y0, NVG_ALIGN_LEFT, to_nanovg(colour_),
        has_now ? fmt::format("{} {:.3g} {}", title_, values_[present_], unit_)
-               : fmt::format("{}: not known", title_));
+               : fmt::format("{}: {}", title_, reason_));
   text(context, x0 + width, y0, NVG_ALIGN_RIGHT, to_nanovg(dark.muted),
        fmt::format("0 .. {:g} {}", scale, unit_));
 

@@ -94,7 +94,8 @@ void EstimatorGroup::choose_setting(std::size_t index) {
 
 void EstimatorGroup::refresh() {
   const replay::PlayerStatus status = console_.player().status();
-  present_->setCaption(fmt::format("{}, {} checkpoints", status.pipeline, status.checkpoints));
+  present_->setCaption(fmt::format("{}   (steps back: {:.0f} MB)", status.pipeline,
+                                   static_cast<double>(status.checkpoint_bytes) / (1 << 20)));
   if (preset_ == nullptr) return;
   for (std::size_t i = 0; i < presets_.size(); ++i) {
     if (presets_[i].name == console_.request().name &&

@@ -16,10 +16,9 @@ class FoldingGroup : public nanogui::Widget {
 
   /// Where the group's widgets go.
   nanogui::Widget* content() { return content_; }
-
- private:
   void set_open(bool open);
 
+ private:
   nanogui::Button* title_;
   nanogui::Widget* content_;
 };

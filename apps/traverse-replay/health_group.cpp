@@ -20,7 +20,8 @@ constexpr std::array<const char*, 9> kTelling{
     "eigenvalue_1",   "map_points",   "speed_mps"};
 constexpr std::size_t kMostRows = 9;
 
-std::string number_text(double value) {
+std::string value_text(const std::string& column, double value) {
+  if (column == "registered") return value != 0 ? "yes" : "no";
   if (std::isnan(value)) return "-";
   if (value == std::round(value) && std::abs(value) < 1e9) return fmt::format("{:.0f}", value);
   return fmt::format("{:.4g}", value);
@@ -80,7 +81,7 @@ void HealthGroup::refresh() {
     const auto place = static_cast<std::size_t>(
         std::find(columns_.begin(), columns_.end(), row.column) - columns_.begin());
     const bool known = shown && place < shown->pose.record.size();
-    row.value->setCaption(known ? number_text(shown->pose.record[place]) : "-");
+    row.value->setCaption(known ? value_text(row.column, shown->pose.record[place]) : "-");
   }
 }
 

@@ -1,7 +1,7 @@
 #include "legend.hpp"
 
 #include <nanovg.h>
-#include <utility>
+#include <string>
 
 #include "traverse/render/theme.hpp"
 
@@ -11,32 +11,42 @@ namespace traverse::app {
 
 namespace {
 
+constexpr float kTitle = 17;
 constexpr float kStrip = 8;
 constexpr float kFont = 13;
 
 }  // namespace
 
-void Legend::set(std::string text, std::vector<render::Colour> samples) {
-  text_ = std::move(text);
-  samples_ = std::move(samples);
-}
-
 void Legend::draw(NVGcontext* context) {
   const auto x = static_cast<float>(mPos.x());
   const auto y = static_cast<float>(mPos.y());
-  const float all = static_cast<float>(mSize.x());
-  for (std::size_t i = 0; i < samples_.size(); ++i) {
-    const float part = all / static_cast<float>(samples_.size());
-    nvgBeginPath(context);
-    nvgRect(context, x + part * static_cast<float>(i), y, part + 0.5F, kStrip);
-    nvgFillColor(context, to_nanovg(samples_[i]));
-    nvgFill(context);
-  }
+  const auto width = static_cast<float>(mSize.x());
   nvgFontFace(context, "sans");
   nvgFontSize(context, kFont);
-  nvgTextAlign(context, NVG_ALIGN_LEFT | NVG_ALIGN_TOP);
   nvgFillColor(context, to_nanovg(render::dark_theme().muted));
-  nvgText(context, x, y + kStrip + 4, text_.c_str(), nullptr);
+  const auto write = [&](float at, float line, int align, const std::string& text) {
+    nvgTextAlign(context, align | NVG_ALIGN_TOP);
+    nvgText(context, at, line, text.c_str(), nullptr);
+  };
+  write(x, y, NVG_ALIGN_LEFT, legend_.title);
+  const float below = y + kTitle + kStrip + 4;
+  const std::size_t samples = legend_.samples.size();
+  const float part = width / static_cast<float>(std::max<std::size_t>(1, samples));
+  if (legend_.labels.size() == samples) {
+    for (std::size_t i = 0; i < samples; ++i) {
+      const float middle = x + part * (static_cast<float>(i) + 0.5F);
+      write(middle, below, NVG_ALIGN_CENTER, legend_.labels[i]);
+    }
+  } else if (!legend_.labels.empty()) {
+    write(x, below, NVG_ALIGN_LEFT, legend_.labels.front());
+    write(x + width, below, NVG_ALIGN_RIGHT, legend_.labels.back());
+  }
+  for (std::size_t i = 0; i < samples; ++i) {
+    nvgBeginPath(context);
+    nvgRect(context, x + part * static_cast<float>(i), y + kTitle, part + 0.5F, kStrip);
+    nvgFillColor(context, to_nanovg(legend_.samples[i]));
+    nvgFill(context);
+  }
 }
 
 }  // namespace traverse::app

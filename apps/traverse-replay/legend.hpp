@@ -1,26 +1,23 @@
 #pragma once
 
 #include <nanogui/widget.h>
-#include <string>
-#include <vector>
 
-#include "traverse/render/colour.hpp"
+#include "traverse/replay/scan_colours.hpp"
 
 namespace traverse::app {
 
-/// What colours mean: a strip of them with the words below.
+/// What colours mean: a title, a strip of them and labels below it.
 class Legend : public nanogui::Widget {
  public:
   explicit Legend(nanogui::Widget* parent) : nanogui::Widget(parent) {}
 
-  void set(std::string text, std::vector<render::Colour> samples);
+  void set(const replay::ColourLegend& legend) { legend_ = legend; }
 
   void draw(NVGcontext* context) override;
-  nanogui::Vector2i preferredSize(NVGcontext*) const override { return {270, 30}; }
+  nanogui::Vector2i preferredSize(NVGcontext*) const override { return {270, 46}; }
 
  private:
-  std::string text_;
-  std::vector<render::Colour> samples_;
+  replay::ColourLegend legend_;
 };
 
 }  // namespace traverse::app

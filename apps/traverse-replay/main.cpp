@@ -23,7 +23,7 @@ constexpr int kFailure = 1;
 constexpr int kUsage = 2;
 
 constexpr const char* kExamples = R"(Examples:
-  traverse-replay drive.rawlog                       with the preset floam at work in it
+  traverse-replay drive.rawlog                       with the preset traverse at work
   traverse-replay drive.rawlog --pipeline floam --set map.radius_m=60 --play
   traverse-replay RUN --at 1317042145.964            a run of `traverse run`, at a stamp
   xvfb-run traverse-replay drive.rawlog --headless --script pictures.txt
@@ -48,11 +48,15 @@ void print_report(const RedrawReport& report) {
   if (report.gl_errors > 0) fmt::print(stderr, "OpenGL errors: {}\n", report.gl_errors);
 }
 
-/// A place on the command line may lie where the index has not come to yet.
+/// At the first rounds of the window not even the first frame may be known.
 bool seek_when_known(const std::string& at, replay::Player& player) {
-  if (player.timeline().size() == 0) return false;
-  const bool is_known = player.timeline().complete();
-  return player.seek(at) && is_known;
+  const replay::Timeline timeline = player.timeline();
+  if (timeline.size() == 0 && !timeline.complete()) return false;
+  if (!player.seek(at)) {
+    throw std::runtime_error(fmt::format(
+        "--at: expected a frame (120), a time (12.5s, 1:02) or a stamp, found '{}'", at));
+  }
+  return true;
 }
 
 int run_window(const OpenRequest& request, replay::Player& player, const std::string& title) {

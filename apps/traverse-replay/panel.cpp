@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <nanogui/layout.h>
+#include <nanogui/screen.h>
 
 #include "traverse/render/palette.hpp"
 
@@ -21,16 +22,24 @@ Panel::Panel(nanogui::Widget* parent, Console& console) : WindowFrame(parent), c
   setFixedWidth(kWidth);
   view_ = new ViewGroup(this, console);
   health_ = new HealthGroup(this, console);
-  auto* charts = new FoldingGroup(this, "Error and time", true);
-  error_ = new Chart(charts->content(), "error", "m", render::palette::kSkyBlue);
+  charts_ = new FoldingGroup(this, "Error and time", true);
+  error_ = new Chart(charts_->content(), "error", "m", render::palette::kSkyBlue);
   error_->setTooltip("Distance to the reference, aligned at the first frame; 300 frames around");
-  time_ = new Chart(charts->content(), "estimator", "ms", render::palette::kOrange);
+  if (!console.player().recording().reference()) error_->set_reason("no reference");
+  time_ = new Chart(charts_->content(), "estimator", "ms", render::palette::kOrange);
   time_->setTooltip("Wall time of the estimator for each frame; 300 frames around");
   estimator_ = new EstimatorGroup(this, console);
 }
 
-void Panel::refresh(const std::string& legend, const std::vector<render::Colour>& samples) {
-  view_->refresh(legend, samples);
+void Panel::fold_to_fit(int height) {
+  for (FoldingGroup* group : {charts_, static_cast<FoldingGroup*>(health_)}) {
+    if (preferredSize(screen()->nvgContext()).y() <= height) return;
+    group->set_open(false);
+  }
+}
+
+void Panel::refresh(const replay::ColourLegend& legend) {
+  view_->refresh(legend);
   health_->refresh();
   estimator_->refresh();
   refresh_charts();

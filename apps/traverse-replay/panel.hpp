@@ -16,8 +16,11 @@ class Panel : public WindowFrame {
 
   Panel(nanogui::Widget* parent, Console& console);
 
+  /// Folds what tells least until the rest fits.
+  void fold_to_fit(int height);
+
   /// At most ten times a second, so that numbers can be read.
-  void refresh(const std::string& legend, const std::vector<render::Colour>& samples);
+  void refresh(const replay::ColourLegend& legend);
 
  private:
   void refresh_charts();
@@ -25,6 +28,7 @@ class Panel : public WindowFrame {
   Console& console_;
   ViewGroup* view_;
   HealthGroup* health_;
+  FoldingGroup* charts_;
   EstimatorGroup* estimator_;
   Chart* error_;
   Chart* time_;

@@ -53,7 +53,10 @@ mrpt::gui::CDisplayWindowGUI_Params window_parameters() {
 ReplayWindow::ReplayWindow(Console& console, const std::string& title, int width, int height)
     : mrpt::gui::CDisplayWindowGUI(title, static_cast<unsigned>(width),
                                    static_cast<unsigned>(height), window_parameters()),
-      console_(console) {
+      console_(console),
+      title_(title),
+      scale_(Scene::scale_of(console.player().recording())),
+      scene_(scale_) {
   setTheme(window_theme(nvgContext()).get());
   {
     const std::lock_guard lock(background_scene_mtx);
@@ -64,7 +67,7 @@ ReplayWindow::ReplayWindow(Console& console, const std::string& title, int width
   transport_ = new TransportBar(this, console);
   help_ = new HelpOverlay(this);
   performLayout();
-  panel_->refresh("", {});
+  panel_->refresh({});
   transport_->refresh("");
   arrange();
 }
@@ -76,6 +79,7 @@ void ReplayWindow::arrange() {
   const nanogui::Vector2i all = size();
   const int view_width = std::max(1, all.x() - Panel::kWidth);
   const int view_height = std::max(1, all.y() - TransportBar::kHeight);
+  panel_->fold_to_fit(view_height);
   panel_->setPosition({view_width, 0});
   panel_->setSize({Panel::kWidth, view_height});
   transport_->setPosition({0, view_height});
@@ -136,7 +140,10 @@ void ReplayWindow::drawAll() {
 
 void ReplayWindow::refresh_texts() {
   last_texts_ = Clock::now();
-  panel_->refresh(scene_.legend(), scene_.legend_samples());
+  const std::string pipeline = console_.player().status().pipeline;
+  if (pipeline != titled_) setCaption(title_ + " (" + pipeline + ")");
+  titled_ = pipeline;
+  panel_->refresh(scene_.legend());
   transport_->refresh(
       fmt::format("{:.0f} thousand points drawn of a map of {:.0f} thousand, "
                   "{:.0f} ms a redraw",
@@ -154,12 +161,12 @@ void ReplayWindow::move_camera() {
   const bool is_switched = !camera_is_placed_ || mode != camera_;
   if (is_switched && mode == CameraMode::kFollow) {
     view.setCameraProjective(true);
-    view.setZoomDistance(kFollowDistance);
+    view.setZoomDistance(kFollowDistance * static_cast<float>(scale_));
     view.setElevationDegrees(kFollowElevation);
     view.setAzimuthDegrees(static_cast<float>(degrees(heading) + 180));
   } else if (is_switched && mode == CameraMode::kTop) {
     view.setCameraProjective(false);
-    view.setZoomDistance(kTopDistance);
+    view.setZoomDistance(kTopDistance * static_cast<float>(scale_));
     view.setElevationDegrees(90);
     view.setAzimuthDegrees(-90);
   } else if (is_switched) {

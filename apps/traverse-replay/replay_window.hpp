@@ -56,6 +56,9 @@ class ReplayWindow : public mrpt::gui::CDisplayWindowGUI {
   void note_redraw(double seconds, bool playing);
 
   Console& console_;
+  std::string title_;
+  std::string titled_;  // pipeline in the title bar
+  double scale_;
   Scene scene_;
   Panel* panel_;
   TransportBar* transport_;

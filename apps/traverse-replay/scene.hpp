@@ -17,8 +17,12 @@ namespace traverse::app {
 /// What the view shows, as MRPT's scene, brought up to date from the player.
 class Scene {
  public:
-  Scene();
+  /// \param scale of lengths that are drawn: 1 for a car
+  explicit Scene(double scale);
   ~Scene();
+
+  /// Robots with a 2-D laser are drawn smaller and looked at from nearer than cars.
+  static double scale_of(const replay::Recording& recording);
 
   const mrpt::opengl::COpenGLScene::Ptr& mrpt_scene() const;
 
@@ -29,8 +33,7 @@ class Scene {
   bool update(const replay::Player& player, const ViewSettings& settings);
 
   /// What the colours of the scan mean.
-  const std::string& legend() const { return legend_; }
-  const std::vector<render::Colour>& legend_samples() const { return samples_; }
+  const replay::ColourLegend& legend() const { return legend_; }
   std::size_t points_drawn() const { return map_drawn_ + scan_drawn_; }
   std::size_t map_points() const { return map_points_; }
 
@@ -42,15 +45,14 @@ class Scene {
 
   void forget();
   void show_scan(const replay::Shown& shown, const ViewSettings& settings);
-  void show_matches(const replay::Shown& shown, const ViewSettings& settings);
   void show_local_map(const replay::Shown& shown);
   bool show_map(const replay::Player& player, const replay::Shown& shown);
   void show_estimate(const replay::Player& player, const replay::Shown& shown);
   void show_reference(const replay::Player& player);
 
   std::unique_ptr<Objects> objects_;
-  std::string legend_;
-  std::vector<render::Colour> samples_;
+  double scale_;
+  replay::ColourLegend legend_;
   std::shared_ptr<const replay::Shown> shown_;
   std::optional<ViewSettings> settings_;
   unsigned generation_ = 0;

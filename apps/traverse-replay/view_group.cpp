@@ -6,6 +6,9 @@
 #include <nanogui/layout.h>
 #include <nanogui/popup.h>
 
+#include "layer_colours.hpp"
+#include "swatch.hpp"
+
 namespace traverse::app {
 
 namespace {
@@ -25,7 +28,7 @@ constexpr std::array<const char*, kLayerNames.size()> kLayerTips{
     "Points of this scan with the lines (orange) and planes (green) they were registered on [4]",
     "The estimated trajectory [5]",
     "The reference trajectory, aligned at the first frame, dashed [6]",
-    "A grid of 10 m [7]"};
+    "A grid of 10 m; of 2 m where a robot goes with a 2-D laser [7]"};
 
 }  // namespace
 
@@ -55,12 +58,13 @@ ViewGroup::ViewGroup(nanogui::Widget* parent, Console& console)
   legend_ = new Legend(content());
 
   auto* layers = new nanogui::Widget(content());
-  layers->setLayout(new nanogui::GridLayout(Orientation::Horizontal, 2, Alignment::Minimum, 0, 2));
+  layers->setLayout(new nanogui::GridLayout(Orientation::Horizontal, 4, Alignment::Minimum, 0, 2));
   for (std::size_t i = 0; i < kLayerNames.size(); ++i) {
+    (new Swatch(layers, colours_of(static_cast<Layer>(i))))->setTooltip(kLayerTips[i]);
     std::string title(kLayerNames[i]);
     if (title == "local-map") title = "local map";
     layers_[i] = new nanogui::CheckBox(layers, title);
-    layers_[i]->setFixedSize({130, 20});
+    layers_[i]->setFixedSize({112, 20});
     layers_[i]->setTooltip(kLayerTips[i]);
     layers_[i]->setCallback([this, i](bool on) {
       console_.execute("show", std::string(kLayerNames[i]) + (on ? " on" : " off"));
@@ -68,7 +72,7 @@ ViewGroup::ViewGroup(nanogui::Widget* parent, Console& console)
   }
 }
 
-void ViewGroup::refresh(const std::string& legend, const std::vector<render::Colour>& samples) {
+void ViewGroup::refresh(const replay::ColourLegend& legend) {
   const ViewSettings& view = console_.view();
   for (std::size_t i = 0; i < kCameraNames.size(); ++i) {
     cameras_[i]->setPushed(static_cast<std::size_t>(view.camera) == i);
@@ -80,7 +84,7 @@ void ViewGroup::refresh(const std::string& legend, const std::vector<render::Col
     }
   }
   for (std::size_t i = 0; i < kLayerNames.size(); ++i) layers_[i]->setChecked(view.layers[i]);
-  legend_->set(legend, samples);
+  legend_->set(legend);
 }
 
 }  // namespace traverse::app

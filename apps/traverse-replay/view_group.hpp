@@ -20,7 +20,7 @@ class ViewGroup : public FoldingGroup {
  public:
   ViewGroup(nanogui::Widget* parent, Console& console);
 
-  void refresh(const std::string& legend, const std::vector<render::Colour>& samples);
+  void refresh(const replay::ColourLegend& legend);
 
  private:
   Console& console_;

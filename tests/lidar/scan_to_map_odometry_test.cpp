@@ -8,6 +8,7 @@
 #include "traverse/sensors/rings.hpp"
 
 #include "lidar/odometry_trial.hpp"
+#include "lidar/shown_matches.hpp"
 #include "lidar/simulated_drive.hpp"
 
 namespace traverse::lidar {
@@ -49,6 +50,14 @@ TEST_F(StreetOdometry, FollowsADriveThatStartsAtSpeed) {
     EXPECT_EQ(frames[i].health.observability.degenerate, 0);
   }
   EXPECT_LT(worst_position_error(frames, street()), 0.1);  // over 28 m, range noise 2 cm
+}
+
+TEST_F(StreetOdometry, ShowsItsMatchesAndItsMap) {
+  ScanToMapOdometry odometry(quick_start(), street().scanner.profile, false);
+  EXPECT_TRUE(odometry.matches().empty());
+  std::vector<Frame> frames;
+  for (const auto& scan : street().scans) frames = odometry.process(scan);
+  testing::expect_consistent_view(odometry, frames.back(), 1);
 }
 
 TEST_F(StreetOdometry, StartingFromRestLagsBehind) {

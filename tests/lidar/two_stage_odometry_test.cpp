@@ -12,6 +12,7 @@
 #include "traverse/sensors/rings.hpp"
 
 #include "lidar/odometry_trial.hpp"
+#include "lidar/shown_matches.hpp"
 #include "lidar/simulated_drive.hpp"
 #include "lidar/simulated_gyro.hpp"
 
@@ -81,6 +82,21 @@ INSTANTIATE_TEST_SUITE_P(Presets, TwoStage,
                          [](const auto& param_info) {
                            return param_info.param == SweepMotion::kPerPoint ? "aloam" : "loam";
                          });
+
+TEST_P(TwoStage, ShowsItsMatchesAndItsMap) {
+  TwoStageOdometryOptions options = this->options();
+  TwoStageOdometry odometry(options, street().scanner.profile, false);
+  EXPECT_TRUE(odometry.matches().empty());
+  std::vector<Frame> frames;
+  for (const auto& scan : street().scans) frames = odometry.process(scan);
+  testing::expect_consistent_view(odometry, frames.back(), 1);
+
+  options.registration_steps = 0;
+  TwoStageOdometry first_stage(options, street().scanner.profile, false);
+  for (const auto& scan : street().scans) first_stage.process(scan);
+  EXPECT_TRUE(first_stage.matches().empty());
+  EXPECT_TRUE(first_stage.local_map().empty());
+}
 
 TEST_P(TwoStage, FollowsADriveThatStartsAtSpeed) {
   const auto frames = run(street(), options());

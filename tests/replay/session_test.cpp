@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "traverse/replay/recording.hpp"
@@ -60,16 +61,21 @@ void expect_same(const Seen& a, const Seen& b) {
 
 bool go_on(const SessionFrame&) { return true; }
 
-class SessionTest : public ::testing::TestWithParam<int> {
+struct Case {
+  const char* preset;
+  int gzip_level;
+};
+
+class SessionTest : public ::testing::TestWithParam<Case> {
  protected:
   SessionTest() {
-    testing::write_simulated_rawlog(folder_ / "street.rawlog", kFrames, GetParam());
+    testing::write_simulated_rawlog(folder_ / "street.rawlog", kFrames, GetParam().gzip_level);
     recording_ = Recording::open(folder_ / "street.rawlog", testing::open_options());
   }
 
   std::unique_ptr<pipeline::Estimator> estimator() const {
     pipeline::PresetRequest request;
-    request.name = "floam";  // which shows its local map and its matches
+    request.name = GetParam().preset;
     request.assignments = {"start.slowest_mps=8", "start.fastest_mps=12", "start.step_mps=4"};
     return recording_->make_pipeline(request, 1).estimator;
   }
@@ -81,7 +87,9 @@ class SessionTest : public ::testing::TestWithParam<int> {
   std::optional<Recording> recording_;
 };
 
-TEST_P(SessionTest, AFrameIsTheSameHoweverOneArrivedThere) {
+class SessionOfAnyPreset : public SessionTest {};
+
+TEST_P(SessionOfAnyPreset, AFrameIsTheSameHoweverOneArrivedThere) {
   std::vector<Seen> played;
   Session straight = session();
   for (std::size_t i = 0; i < kFrames; ++i) {
@@ -102,6 +110,25 @@ TEST_P(SessionTest, AFrameIsTheSameHoweverOneArrivedThere) {
   for (std::size_t frame : {19U, 18U, 17U, 16U, 0U, 1U, 23U}) {  // steps back, first, last
     ASSERT_EQ(jumping.go_to(frame, go_on), Session::Outcome::kThere);
     expect_same(look_at(jumping), played[frame]);
+  }
+}
+
+TEST_P(SessionOfAnyPreset, SaysHowLargeItsCheckpointsAre) {
+  Session session = this->session();
+  session.go_to(kFrames - 1, go_on);
+  // The map is the largest part: tens of bytes for each of its thousands of points.
+  EXPECT_GT(session.estimator().bytes(), 30 * session.estimator().local_map().size());
+  EXPECT_GT(session.checkpoints().bytes(), session.estimator().bytes());
+  EXPECT_LT(session.checkpoints().bytes(), Checkpoints::kMostBytes);
+}
+
+TEST_P(SessionOfAnyPreset, KnowsWhetherTheEstimatorIsAtTheFrame) {
+  // The first four scans are held back: their frames come together.
+  Session session = this->session();
+  for (const auto& [frame, is_there] :
+       {std::pair{0U, false}, {2U, false}, {3U, true}, {9U, true}}) {
+    session.go_to(frame, go_on);
+    EXPECT_EQ(session.estimator_is_at_frame(), is_there) << frame;
   }
 }
 
@@ -146,7 +173,16 @@ TEST_P(SessionTest, BeginsAtItsOrigin) {
   EXPECT_EQ(session.frame()->pose.stamp, geometry::Stamp::from_seconds(2.1));
 }
 
-INSTANTIATE_TEST_SUITE_P(PlainAndCompressed, SessionTest, ::testing::Values(0, 1));
+std::string name_of(const ::testing::TestParamInfo<Case>& info) {
+  return fmt::format("{}{}", info.param.preset, info.param.gzip_level == 0 ? "Plain" : "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Lidar, SessionOfAnyPreset,
+                         ::testing::Values(Case{"traverse", 1}, Case{"floam", 1}, Case{"aloam", 1},
+                                           Case{"loam", 1}),
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(Files, SessionTest,
+                         ::testing::Values(Case{"traverse", 0}, Case{"traverse", 1}), name_of);
 
 }  // namespace
 }  // namespace traverse::replay

@@ -30,6 +30,17 @@ TEST(Timeline, ParsesFramesTimesAndStamps) {
   EXPECT_EQ(parse_place("3", Timeline()), std::nullopt);
 }
 
+TEST(Timeline, APlaceIsKnownWhenMoreFramesCannotMoveIt) {
+  Timeline timeline = tenth_seconds(5, 0);
+  for (const char* known : {"3", "0.3s"}) EXPECT_TRUE(is_place_known(known, timeline)) << known;
+  for (const char* ahead : {"4", "9", "0.4s", "1:00"}) {
+    EXPECT_FALSE(is_place_known(ahead, timeline)) << ahead;
+  }
+  EXPECT_FALSE(is_place_known("0", Timeline()));
+  timeline.set_complete();
+  EXPECT_TRUE(is_place_known("9", timeline));
+}
+
 TEST(Timeline, FramesThemselvesHaveTheLastWord) {
   Timeline timeline = tenth_seconds(5, 0);
   timeline.confirm(0, Stamp::from_seconds(0));

@@ -65,6 +65,11 @@ class Screen {
   std::string display_;
 };
 
+/// Of the window, pixels.
+struct Place {
+  int x, y;
+};
+
 /// A program with a window on the screen, driven by key presses and mouse clicks.
 class WindowedProgram {
  public:
@@ -96,12 +101,14 @@ class WindowedProgram {
     std::this_thread::sleep_for(std::chrono::milliseconds(150));
   }
   /// Slowly: the window looks at the mouse once a redraw.
-  void click(int x, int y) {
+  void click(Place place) {
     screen_.run(
         fmt::format("xdotool mousemove {} {} sleep 0.3 mousedown 1 sleep 0.3 mouseup 1 "
                     "sleep 0.3",
-                    x, y));
+                    place.x, place.y));
   }
+
+  std::string title() const { return screen_.run("xdotool getwindowname " + window_); }
 
   bool has_ended() const { return std::filesystem::exists(status_file_); }
   int exit_status() {

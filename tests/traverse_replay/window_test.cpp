@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "traverse/files/atomic_file.hpp"
+#include "traverse/files/text_file.hpp"
 
 #include "replay/simulated_rawlog.hpp"
 #include "temporary_folder.hpp"
@@ -22,6 +23,11 @@ using testing::WindowedProgram;
 constexpr int kWidth = 1000;
 constexpr int kHeight = 700;
 constexpr std::size_t kFrames = 40;
+
+// Where things are in a window of this size.
+constexpr testing::Place kPresetBox{850, 378};
+constexpr testing::Place kFirstPreset{740, 370};  // of the list that the box opens
+constexpr testing::Place kRestartHere{780, 465};
 
 /// Real key presses and clicks; the frame on show is told by the name of a screenshot.
 class WindowTest : public ::testing::Test {
@@ -105,7 +111,7 @@ TEST_F(WindowTest, ObeysKeysAndMouse) {
   std::this_thread::sleep_for(std::chrono::milliseconds(700));
   EXPECT_NEAR(frame(program), paused, 4) << "pause";  // the few that were on their way
 
-  program.click((kWidth - 24) / 2 + 12, kHeight - 88 + 19);  // the middle of the time line
+  program.click({(kWidth - 24) / 2 + 12, kHeight - 88 + 19});  // the middle of the time line
   EXPECT_TRUE(eventually([&] { return std::abs(frame(program) - 20) <= 1; })) << "seek by mouse";
 
   program.press("g");
@@ -123,6 +129,25 @@ TEST_F(WindowTest, ObeysKeysAndMouse) {
   EXPECT_TRUE(eventually([&] {
     return fs::exists(folder_.path() / fmt::format("street-frame-{:06}/trajectory.tum", origin));
   })) << "saved";
+  program.press("q");
+  EXPECT_EQ(program.exit_status(), 0) << program.messages();
+  EXPECT_EQ(program.messages(), "");
+}
+
+TEST_F(WindowTest, ChangesThePipelineByMouse) {
+  WindowedProgram program(*screen_, folder_.path(), arguments("--at 9"));
+  ASSERT_TRUE(program.has_window()) << program.messages();
+  ASSERT_TRUE(shows(program, 9));
+  EXPECT_THAT(program.title(), HasSubstr("(traverse)"));
+  program.click(kPresetBox);
+  program.click(kFirstPreset);
+  EXPECT_THAT(program.title(), HasSubstr("(traverse)")) << "chosen, not yet begun";
+  program.click(kRestartHere);
+  EXPECT_TRUE(eventually([&] { return program.title().find("(aloam)") != std::string::npos; }))
+      << program.title();
+  EXPECT_TRUE(shows(program, 9));
+  program.press("Home");
+  EXPECT_TRUE(shows(program, 9)) << "it began here";
   program.press("q");
   EXPECT_EQ(program.exit_status(), 0) << program.messages();
   EXPECT_EQ(program.messages(), "");
@@ -173,6 +198,53 @@ TEST_F(WindowTest, SaysWhatIsWrongInAWindowToo) {
   EXPECT_THAT(program.messages(), HasSubstr("an empty file"));
   program.press("q");
   EXPECT_EQ(program.exit_status(), 1);
+}
+
+TEST_F(WindowTest, OpensARecordingThatIsCutOff) {
+  std::string bytes = files::read_text(*shared_ / "street.rawlog");
+  bytes.resize(bytes.size() * 6 / 10);
+  files::write_text(folder_ / "cut.rawlog", bytes);
+  for (const char* beside : {"street.traverse.yaml", "street.reference.tum"}) {
+    fs::copy_file(*shared_ / beside, folder_ / beside);
+  }
+  fs::rename(folder_ / "street.traverse.yaml", folder_ / "cut.traverse.yaml");
+  files::write_text(folder_ / "script", "end\nsettle\nscreenshot end.png\n");
+  WindowedProgram program(*screen_, folder_.path(),
+                          "cut.rawlog --headless --script script --no-index-cache");
+  EXPECT_EQ(program.exit_status(), 0) << program.messages();
+  EXPECT_TRUE(fs::exists(folder_ / "end.png"));
+}
+
+TEST_F(WindowTest, AForeignFileGetsAMessage) {
+  files::write_text(folder_ / "foreign.rawlog", "this is no rawlog");
+  WindowedProgram program(*screen_, folder_.path(), "foreign.rawlog");
+  ASSERT_TRUE(program.has_window()) << program.messages();
+  EXPECT_THAT(program.messages(), HasSubstr("foreign.rawlog"));
+  program.press("Escape");
+  EXPECT_EQ(program.exit_status(), 1);
+}
+
+TEST_F(WindowTest, OpensEveryRawlogOfMrptCommon) {
+  const fs::path datasets = "/usr/share/mrpt/datasets";
+  if (!fs::exists(datasets)) GTEST_SKIP() << "mrpt-common is not installed";
+  files::write_text(folder_ / "script",
+                    "settle\nseek 7\nsettle\nstep -1\nsettle\nscreenshot seen.png\n");
+  std::size_t opened = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(datasets)) {
+    if (entry.path().extension() != ".rawlog") continue;
+    SCOPED_TRACE(entry.path());
+    fs::remove(folder_ / "seen.png");
+    WindowedProgram program(
+        *screen_, folder_.path(),
+        fmt::format("'{}' --headless --script script --no-index-cache", entry.path().string()));
+    if (program.exit_status() == 0) {
+      EXPECT_TRUE(fs::exists(folder_ / "seen.png"));
+      ++opened;
+    } else {  // landmarks or depth images alone: nothing that Traverse reads
+      EXPECT_THAT(program.messages(), HasSubstr("expected observations of a laser"));
+    }
+  }
+  EXPECT_GE(opened, 11U);
 }
 
 }  // namespace

@@ -33,4 +33,12 @@ TimedPoints deskewed(const TimedPoints& points, const geometry::Twist& velocity)
   return result;
 }
 
+std::string deskew_note(bool wanted, const sensors::LidarProfile& profile,
+                        bool motion_compensated) {
+  if (!wanted) return "off by configuration";
+  if (motion_compensated) return "off: the recording is motion-compensated";
+  if (profile.time_source == sensors::TimeSource::kNone) return "off: point times are unknown";
+  return "on";
+}
+
 }  // namespace traverse::lidar

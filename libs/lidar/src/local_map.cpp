@@ -68,6 +68,13 @@ LocalMap::LocalMap(LocalMap&&) noexcept = default;
 LocalMap& LocalMap::operator=(LocalMap&&) noexcept = default;
 LocalMap::~LocalMap() = default;
 
+std::size_t LocalMap::bytes() const {
+  using Voxel = decltype(Grid::voxels)::value_type;
+  return points_.size() * sizeof(Eigen::Vector3d) + counts_.size() * sizeof(std::uint32_t) +
+         keys_.size() * sizeof(std::uint64_t) +
+         grid_->voxels.bucket_count() * (sizeof(Voxel) + sizeof(std::uint64_t));
+}
+
 void LocalMap::insert(std::span<const Eigen::Vector3d> points_map) {
   index_.reset();
   for (const Eigen::Vector3d& p : points_map) {

@@ -32,6 +32,15 @@ ScanToMap::ScanToMap(const ScanToMapOptions& options)
       edge_map_(options.map.edge_voxel_m, options.map.radius_m),
       planar_map_(options.map.planar_voxel_m, options.map.radius_m) {}
 
+std::vector<Eigen::Vector3d> ScanToMap::points() const {
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(size());
+  for (const LocalMap* part : {&edge_map_, &planar_map_}) {
+    points.insert(points.end(), part->points().begin(), part->points().end());
+  }
+  return points;
+}
+
 TimedPoints ScanToMap::at_stamp(const TimedPoints& points, const geometry::Twist& velocity) const {
   return options_.deskew ? deskewed(points, velocity) : points;
 }

@@ -4,9 +4,11 @@
 #include <string>
 #include <utility>
 
+#include "traverse/lidar/deskew.hpp"
 #include "traverse/lidar/factor_kinds.hpp"
 #include "traverse/sensors/sweep_timing.hpp"
 
+#include "matched_points.hpp"
 #include "stopwatch.hpp"
 
 namespace traverse::lidar {
@@ -15,14 +17,6 @@ namespace {
 
 ScanToMapOptions scan_to_map_options(const ScanToMapOdometryOptions& options, bool deskew) {
   return {options.map, options.association, options.solver, deskew, options.threads};
-}
-
-std::string describe_deskew(const ScanToMapOdometryOptions& options,
-                            const sensors::LidarProfile& profile, bool motion_compensated) {
-  if (!options.deskew) return "off by configuration";
-  if (motion_compensated) return "off: the recording is motion-compensated";
-  if (profile.time_source == sensors::TimeSource::kNone) return "off: point times are unknown";
-  return "on";
 }
 
 }  // namespace
@@ -47,9 +41,10 @@ ScanToMapOdometry::ScanToMapOdometry(const ScanToMapOdometryOptions& options,
                                      const sensors::LidarProfile& profile, bool motion_compensated)
     : options_(options),
       profile_(profile),
-      deskew_note_(describe_deskew(options, profile, motion_compensated)),
+      deskew_note_(lidar::deskew_note(options.deskew, profile, motion_compensated)),
       scan_to_map_(scan_to_map_options(options, deskew_note_ == "on")),
-      map_(scan_to_map_) {}
+      map_(scan_to_map_),
+      held_back_(options.start.scans) {}
 
 std::vector<Frame> ScanToMapOdometry::process(const sensors::LidarScan& scan) {
   Prepared prepared;
@@ -60,15 +55,10 @@ std::vector<Frame> ScanToMapOdometry::process(const sensors::LidarScan& scan) {
   prepared.features = collect_features(scan, profile_, lines, features, options_.thinning);
   watch.lap(prepared.ms.features);
 
-  if (begun_) return {advance(prepared.features, prepared.ms)};
-  held_back_.push_back(std::move(prepared));
-  const bool enough = static_cast<int>(held_back_.size()) >= std::max(1, options_.start.scans);
-  return enough ? begin() : std::vector<Frame>{};
+  return advance_all(held_back_.add(std::move(prepared)));
 }
 
-std::vector<Frame> ScanToMapOdometry::finish() {
-  return begun_ || held_back_.empty() ? std::vector<Frame>{} : begin();
-}
+std::vector<Frame> ScanToMapOdometry::finish() { return advance_all(held_back_.release()); }
 
 std::vector<optimization::FactorUse> ScanToMapOdometry::factors() const {
   return factors_of(options_.solver);
@@ -82,46 +72,20 @@ CorrectedScan ScanToMapOdometry::used_scan(const sensors::LidarScan& scan,
                       : corrected(scan, profile_, motion);
 }
 
-std::vector<Eigen::Vector3d> ScanToMapOdometry::local_map() const {
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(map_.size());
-  for (const LocalMap* part : {&map_.edge_map(), &map_.planar_map()}) {
-    points.insert(points.end(), part->points().begin(), part->points().end());
-  }
-  return points;
-}
-
 std::vector<MatchedPoint> ScanToMapOdometry::matches() const {
-  std::vector<MatchedPoint> points;
-  points.reserve(matches_.size());
-  for (const LineMatch& match : matches_.lines) {
-    const Line& line = match.line;
-    const Eigen::Vector3d q = T_map_last_ * match.p_lidar;
-    const Eigen::Vector3d foot =
-        line.point + line.direction * line.direction.dot(Eigen::Vector3d(q - line.point));
-    points.push_back({MatchedPoint::Kind::kLine, q, foot, line.direction, (q - foot).norm()});
-  }
-  for (const PlaneMatch& match : matches_.planes) {
-    const Eigen::Vector3d q = T_map_last_ * match.p_lidar;
-    const double residual = plane_residual(match.plane, q);
-    points.push_back({MatchedPoint::Kind::kPlane, q, q - residual * match.plane.normal,
-                      match.plane.normal, residual});
-  }
-  return points;
+  return matched_points(matches_, T_map_last_);
 }
 
-std::vector<Frame> ScanToMapOdometry::begin() {
-  begun_ = true;
-  if (options_.start.scans >= 2 && held_back_.size() >= 2) {
+std::vector<Frame> ScanToMapOdometry::advance_all(std::vector<Prepared> scans) {
+  if (frames_ == 0 && scans.size() >= 2) {
     Stopwatch watch;
-    std::vector<ScanFeatures> scans;
-    for (const Prepared& held : held_back_) scans.push_back(held.features);
-    velocity_ = find_initial_velocity(scans, profile_, scan_to_map_, options_.start);
-    watch.lap(held_back_.front().ms.start);
+    std::vector<ScanFeatures> first;
+    for (const Prepared& scan : scans) first.push_back(scan.features);
+    velocity_ = find_initial_velocity(first, profile_, scan_to_map_, options_.start);
+    watch.lap(scans.front().ms.start);
   }
   std::vector<Frame> frames;
-  for (const Prepared& held : held_back_) frames.push_back(advance(held.features, held.ms));
-  held_back_.clear();
+  for (const Prepared& scan : scans) frames.push_back(advance(scan));
   return frames;
 }
 
@@ -130,14 +94,15 @@ int ScanToMapOdometry::steps_of_this_frame() const {
                   options_.first_registration_steps - static_cast<int>(frames_) + 1);
 }
 
-Frame ScanToMapOdometry::advance(const ScanFeatures& features, const StageTimes& prepared) {
+Frame ScanToMapOdometry::advance(const Prepared& scan) {
+  const ScanFeatures& features = scan.features;
   Frame frame;
   frame.index = frames_;
   frame.stamp = features.stamp;
   frame.points = features.points;
   frame.dropped = features.dropped;
   frame.class_counts = features.class_counts;
-  frame.ms = prepared;
+  frame.ms = scan.ms;
 
   if (frames_ > 0) {
     const double dt = sensors::scan_interval(last_stamp_, features.stamp, profile_);

@@ -4,9 +4,11 @@
 #include <string>
 #include <utility>
 
+#include "traverse/lidar/deskew.hpp"
 #include "traverse/lidar/factor_kinds.hpp"
 #include "traverse/sensors/sweep_timing.hpp"
 
+#include "matched_points.hpp"
 #include "stopwatch.hpp"
 
 namespace traverse::lidar {
@@ -17,14 +19,6 @@ constexpr double kLeastInterval = 0.1;  // sweeps; stamps nearer than that tell 
 
 ScanToMapOptions scan_to_map_options(const TwoStageOdometryOptions& options, bool deskew) {
   return {options.map, options.association, options.solver, deskew, options.threads};
-}
-
-std::string describe_deskew(const TwoStageOdometryOptions& options,
-                            const sensors::LidarProfile& profile, bool motion_compensated) {
-  if (!options.deskew) return "off by configuration";
-  if (motion_compensated) return "off: the recording is motion-compensated";
-  if (profile.time_source == sensors::TimeSource::kNone) return "off: point times are unknown";
-  return "on";
 }
 
 /// What the first stage tells of a frame beyond what all odometry does.
@@ -71,11 +65,12 @@ TwoStageOdometry::TwoStageOdometry(const TwoStageOdometryOptions& options,
                                    const sensors::LidarProfile& profile, bool motion_compensated)
     : options_(options),
       profile_(profile),
-      deskew_note_(describe_deskew(options, profile, motion_compensated)),
+      deskew_note_(lidar::deskew_note(options.deskew, profile, motion_compensated)),
       scan_to_map_(scan_to_map_options(options, deskew_note_ == "on")),
       scan_to_scan_(options.odometry, options.solver, deskew_note_ == "on", options.threads),
       map_(scan_to_map_),
-      imu_(options.imu) {}
+      imu_(options.imu),
+      held_back_(options.start.scans) {}
 
 std::vector<Frame> TwoStageOdometry::process(const sensors::LidarScan& scan) {
   Prepared prepared;
@@ -87,15 +82,10 @@ std::vector<Frame> TwoStageOdometry::process(const sensors::LidarScan& scan) {
   prepared.sweep = collect_sweep(scan, profile_, lines, features, options_.odometry.planar_voxel_m);
   watch.lap(prepared.ms.features);
 
-  if (begun_) return {advance(prepared)};
-  held_back_.push_back(std::move(prepared));
-  const bool enough = static_cast<int>(held_back_.size()) >= std::max(1, options_.start.scans);
-  return enough ? begin() : std::vector<Frame>{};
+  return advance_all(held_back_.add(std::move(prepared)));
 }
 
-std::vector<Frame> TwoStageOdometry::finish() {
-  return begun_ || held_back_.empty() ? std::vector<Frame>{} : begin();
-}
+std::vector<Frame> TwoStageOdometry::finish() { return advance_all(held_back_.release()); }
 
 void TwoStageOdometry::observe(const sensors::ImuSample& sample_lidar) {
   imu_.observe(sample_lidar);
@@ -133,27 +123,33 @@ std::vector<optimization::FactorUse> TwoStageOdometry::factors() const {
   return uses;
 }
 
-std::vector<Frame> TwoStageOdometry::begin() {
-  begun_ = true;
-  velocity_ = initial_velocity(held_back_.front().ms);
+std::vector<Eigen::Vector3d> TwoStageOdometry::local_map() const {
+  return options_.registration_steps > 0 ? map_.points() : std::vector<Eigen::Vector3d>{};
+}
+
+std::vector<MatchedPoint> TwoStageOdometry::matches() const {
+  return matched_points(matches_, T_map_last_);
+}
+
+std::vector<Frame> TwoStageOdometry::advance_all(std::vector<Prepared> scans) {
+  if (frames_ == 0 && !scans.empty()) velocity_ = initial_velocity(scans);
   std::vector<Frame> frames;
-  for (const Prepared& held : held_back_) frames.push_back(advance(held));
-  held_back_.clear();
+  for (const Prepared& scan : scans) frames.push_back(advance(scan));
   return frames;
 }
 
-geometry::Twist TwoStageOdometry::initial_velocity(StageTimes& ms) const {
+geometry::Twist TwoStageOdometry::initial_velocity(std::vector<Prepared>& first) const {
   Stopwatch watch;
   std::vector<ScanFeatures> scans;
-  for (const Prepared& held : held_back_) {
-    const bool later = scans.empty() || held.features.stamp > scans.back().stamp;
-    if (later) scans.push_back(held.features);
+  for (const Prepared& scan : first) {
+    const bool later = scans.empty() || scan.features.stamp > scans.back().stamp;
+    if (later) scans.push_back(scan.features);
   }
   geometry::Twist velocity = geometry::Twist::Zero();
-  if (options_.start.scans >= 2 && scans.size() >= 2) {
+  if (scans.size() >= 2) {
     velocity = find_initial_velocity(scans, profile_, scan_to_map_, options_.start);
   }
-  watch.lap(ms.start);
+  watch.lap(first.front().ms.start);
   return velocity;
 }
 
@@ -194,10 +190,11 @@ Frame TwoStageOdometry::advance(const Prepared& scan) {
     frame.velocity = odometry.health.registered ? prediction.velocity_given(motion.T_last_current)
                                                 : prediction.velocity;
 
-    const Registration refined = map_.align(scan.features, T_map_odom_ * T_odom_lidar_,
-                                            frame.velocity, options_.registration_steps, frame.ms);
+    Registration refined = map_.align(scan.features, T_map_odom_ * T_odom_lidar_, frame.velocity,
+                                      options_.registration_steps, frame.ms);
     frame.T_map_lidar = refined.T_map_lidar.orthonormalised();
     frame.health = refined.health;
+    matches_ = std::move(refined.matches);
     const geometry::Pose3 T_last_current = T_map_last_.inverse() * frame.T_map_lidar;
     if (refined.health.registered) {
       T_map_odom_ = frame.T_map_lidar * T_odom_lidar_.inverse();

@@ -30,6 +30,7 @@ class LidarEstimator final : public Estimator {
   std::vector<Decision> decisions() const override;
   std::vector<optimization::FactorUse> factors() const override { return odometry_->factors(); }
   std::unique_ptr<Estimator> clone() const override;
+  std::size_t bytes() const override { return odometry_->bytes(); }
   std::vector<Eigen::Vector3d> local_map() const override;
   std::vector<MatchedPoint> matches() const override;
 

@@ -7,9 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "traverse/dataset/point_cloud_file.hpp"
-#include "traverse/dataset/trajectory_files.hpp"
-#include "traverse/files/atomic_file.hpp"
+#include "traverse/replay/recording_index.hpp"
+#include "traverse/replay/saved_estimate.hpp"
 
 namespace traverse::replay {
 
@@ -53,88 +52,27 @@ Player::~Player() {
 
 void Player::control(const std::function<void(Controls&)>& change) {
   const std::lock_guard lock(mutex_);
+  const std::size_t wanted = controls_.wanted_in(timeline_);
   change(controls_);
+  if (controls_.wanted_in(timeline_) != wanted) ahead_.reset();
   changed_.notify_all();
 }
 
 bool Player::seek(const std::string& place) {
   const std::lock_guard lock(mutex_);
   const auto frame = parse_place(place, timeline_);
-  if (frame) controls_.seek(*frame);
+  if (!frame) return false;
+  controls_.seek(*frame);
+  ahead_ = is_place_known(place, timeline_) ? std::nullopt : std::optional(place);
   changed_.notify_all();
-  return frame.has_value();
+  return true;
 }
 
-PlayerStatus Player::status() const {
-  const std::lock_guard lock(mutex_);
-  PlayerStatus status = status_;
-  status.playing = controls_.playing();
-  status.unlimited = controls_.unlimited();
-  status.loop = controls_.loop();
-  status.speed = controls_.speed();
-  status.origin = controls_.origin();
-  status.range_first = controls_.range_first();
-  status.range_last = controls_.range_last();
-  status.frames = timeline_.size();
-  status.frames_complete = timeline_.complete();
-  if (shown_) status.shown = shown_->frame;
-  status.settled =
-      jobs_.empty() && !has_job_ && shown_ && controls_.is_settled(shown_->frame, timeline_);
-  return status;
-}
-
-Timeline Player::timeline() const {
-  const std::lock_guard lock(mutex_);
-  return timeline_;
-}
-
-std::vector<FrameIndex::Skipped> Player::skipped() const {
-  const std::lock_guard lock(mutex_);
-  return skipped_;
-}
-
-std::shared_ptr<const Shown> Player::shown() const {
-  const std::lock_guard lock(mutex_);
-  return shown_;
-}
-
-std::vector<PastFrame> Player::past(std::size_t from) const {
-  const std::lock_guard lock(mutex_);
-  if (from >= past_.size()) return {};
-  return {past_.begin() + static_cast<std::ptrdiff_t>(from), past_.end()};
-}
-
-std::vector<Eigen::Vector3d> Player::reference_in_map() const {
-  std::optional<geometry::Pose3> T_map_reference;
-  {
-    const std::lock_guard lock(mutex_);
-    T_map_reference = T_map_reference_;
-  }
-  std::vector<Eigen::Vector3d> points;
-  if (!T_map_reference) return points;
-  for (const geometry::Pose3& pose : recording_.reference()->T_map_body.poses()) {
-    points.push_back(*T_map_reference * pose.translation);
-  }
-  return points;
-}
-
-std::optional<ChosenPoints> Player::choose_map(const Eigen::Vector3f& focus,
-                                               std::size_t budget) const {
-  const auto on_show = shown();
-  std::size_t origin = 0;
-  {
-    const std::lock_guard lock(mutex_);
-    origin = controls_.origin();
-  }
-  const std::unique_lock lock(map_mutex_, std::try_to_lock);
-  if (!lock) return std::nullopt;
-  const std::size_t frames = on_show && on_show->frame >= origin ? on_show->frame - origin + 1 : 0;
-  return map_.choose(frames, focus, budget);
-}
-
-std::vector<pipeline::ResolvedSetting> Player::settings() const {
-  const std::lock_guard lock(mutex_);
-  return settings_;
+/// The index has grown: the place that was asked for may be another frame now.
+void Player::seek_again() {
+  if (!ahead_) return;
+  if (const auto frame = parse_place(*ahead_, timeline_)) controls_.seek(*frame);
+  if (is_place_known(*ahead_, timeline_)) ahead_.reset();
 }
 
 void Player::do_later(std::function<void()> job) {
@@ -292,11 +230,12 @@ void Player::publish() {
   shown->frame = frame.number;
   shown->pose = frame.pose;
   shown->scan = scan_to_show(frame, session_->estimator(), recording_.info().rig);
-  shown->matches = session_->estimator().matches();
+  if (session_->estimator_is_at_frame()) shown->matches = session_->estimator().matches();
   shown->local_map = session_->estimator().local_map();
   const std::lock_guard lock(mutex_);
   shown->seconds = timeline_.seconds_to(frame.number);
   status_.checkpoints = session_->checkpoints().size();
+  status_.checkpoint_bytes = session_->checkpoints().bytes();
   shown_ = std::move(shown);
 }
 
@@ -310,77 +249,45 @@ void Player::fail(const std::string& what) {
 void Player::write(const std::filesystem::path& folder) {
   const auto on_show = shown();
   if (!on_show) return;
-  try {
-    files::make_writable_folder(folder);
-    geometry::Trajectory trajectory;
-    for (const PastFrame& frame : past(0)) {
-      if (frame.number > on_show->frame) break;
-      trajectory.push_back(frame.pose.stamp, frame.pose.T_map_body);
-    }
-    dataset::write_tum(folder / "trajectory.tum", trajectory);
-    if (recording_.reference()) {
-      dataset::write_tum(folder / "reference.tum", recording_.reference()->T_map_body);
-    }
-    dataset::PointCloud cloud;
-    {
-      const std::lock_guard lock(map_mutex_);
-      const std::size_t size = map_.size_at(trajectory.size());
-      std::vector<float> x, y, z;
-      for (std::size_t i = 0; i < size; ++i) {
-        x.push_back(map_.points()[i].x());
-        y.push_back(map_.points()[i].y());
-        z.push_back(map_.points()[i].z());
-      }
-      cloud.add("x", std::move(x));
-      cloud.add("y", std::move(y));
-      cloud.add("z", std::move(z));
-      cloud.add("intensity",
-                std::vector<float>(map_.intensities().begin(),
-                                   map_.intensities().begin() + static_cast<std::ptrdiff_t>(size)));
-    }
-    dataset::write_ply(folder / "map.ply", cloud);
-    const std::lock_guard lock(mutex_);
-    status_.message = fmt::format("saved {} poses and {} map points in {}", trajectory.size(),
-                                  cloud.size(), folder.string());
-  } catch (const std::exception& error) {
-    const std::lock_guard lock(mutex_);
-    status_.message = fmt::format("not saved: {}", error.what());
+  geometry::Trajectory estimate;
+  for (const PastFrame& frame : past(0)) {
+    if (frame.number > on_show->frame) break;
+    estimate.push_back(frame.pose.stamp, frame.pose.T_map_body);
   }
+  std::string message;
+  try {
+    const std::lock_guard lock(map_mutex_);
+    const std::size_t points = save_estimate(folder, estimate, map_, recording_.reference());
+    message = fmt::format("saved {} poses and {} map points in {}", estimate.size(), points,
+                          folder.string());
+  } catch (const std::exception& error) {
+    message = fmt::format("not saved: {}", error.what());
+  }
+  const std::lock_guard lock(mutex_);
+  status_.message = message;
 }
 
 void Player::build_index() {
-  try {
-    const auto source = recording_.source();
-    const auto add = [&](const std::vector<geometry::Stamp>& stamps) {
-      const std::lock_guard lock(mutex_);
-      for (const geometry::Stamp stamp : stamps) timeline_.add(stamp);
-      timeline_.set_complete();
-      status_.index_share = 1;
-    };
-    if (const auto listed = source->listed_scan_stamps()) return add(*listed);
-
-    const auto file = options_.keep_index ? index_file(recording_.info().path) : std::nullopt;
-    const std::string digest = file ? quick_digest(recording_.info().path) : "";
-    std::optional<FrameIndex> index;
-    if (file) index = load_index(*file, digest, recording_.frame_sensor());
-    if (!index) {
-      IndexObserver observer;
-      observer.stop = &stop_;
-      observer.frame = [&](geometry::Stamp stamp) {
-        const std::lock_guard lock(mutex_);
-        timeline_.add(stamp);
-      };
-      observer.progress = [&](double share) {
-        const std::lock_guard lock(mutex_);
-        status_.index_share = share;
-      };
-      index = replay::build_index(*source, recording_.frame_sensor(), observer);
-      if (!index) return;
-      if (file) save_index(*file, digest, recording_.frame_sensor(), *index);
-    }
-    add(index->frames);
+  IndexObserver observer;
+  observer.stop = &stop_;
+  observer.frame = [&](geometry::Stamp stamp) {
     const std::lock_guard lock(mutex_);
+    timeline_.add(stamp);
+    seek_again();
+  };
+  observer.progress = [&](double share) {
+    const std::lock_guard lock(mutex_);
+    status_.index_share = share;
+  };
+  try {
+    const auto index = index_of(recording_, options_.keep_index, observer);
+    if (!index) return;
+    const std::lock_guard lock(mutex_);
+    for (const geometry::Stamp stamp : index->frames) timeline_.add(stamp);
+    timeline_.set_complete();
+    status_.index_share = 1;
     skipped_ = index->skipped;
+    seek_again();
   } catch (const std::exception& error) {
     const std::lock_guard lock(mutex_);
     status_.message = fmt::format("no index: {}", error.what());

@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kClipped = 0.02;  // of the values, at each end
 constexpr std::size_t kShades = 256;
+constexpr int kResidualShades = 16;  // on each side of zero, in the legend
 
 struct Span {
   double least = 0;
@@ -34,8 +35,12 @@ Span percentiles(std::vector<float> values) {
   return {least, at(1 - kClipped)};
 }
 
-ScanColours grey(std::size_t count, std::string legend) {
-  return {std::vector<Colour>(count, render::dark_theme().other), std::move(legend), {}};
+ScanColours grey(std::size_t count, std::string title) {
+  return {std::vector<Colour>(count, render::dark_theme().other), {std::move(title), {}, {}}};
+}
+
+std::string in_unit(std::string_view what, std::string_view unit) {
+  return unit.empty() ? std::string(what) : fmt::format("{} [{}]", what, unit);
 }
 
 ScanColours scaled(const std::vector<float>& values, std::size_t count, render::ColourMap map,
@@ -50,14 +55,14 @@ ScanColours scaled(const std::vector<float>& values, std::size_t count, render::
   }
   const double width = std::max(span.most - span.least, 1e-9);
   ScanColours result;
-  result.samples.assign(shades.begin(), shades.end());
+  result.legend = {in_unit(what, unit) + ", 2nd to 98th percentile",
+                   {shades.begin(), shades.end()},
+                   {fmt::format("{:.3g}", span.least), fmt::format("{:.3g}", span.most)}};
   result.colours.reserve(count);
   for (const float value : values) {
     const double share = std::clamp((value - span.least) / width, 0.0, 1.0);
     result.colours.push_back(shades[static_cast<std::size_t>(share * (kShades - 1))]);
   }
-  result.legend = fmt::format("{} {:.3g} .. {:.3g}{} (2nd to 98th percentile)", what, span.least,
-                              span.most, unit);
   return result;
 }
 
@@ -68,8 +73,9 @@ ScanColours by_class(const ShownScan& scan) {
       render::dark_theme().other, render::palette::kSharp, render::palette::kLessSharp,
       render::palette::kFlat, render::palette::kLessFlat};
   ScanColours result;
-  result.legend = "other, sharp, less sharp, flat, less flat";
-  result.samples.assign(colours.begin(), colours.end());
+  result.legend = {"class of the point",
+                   {colours.begin(), colours.end()},
+                   {"other", "sharp", "less sharp", "flat", "less flat"}};
   result.colours.reserve(count);
   for (const std::uint8_t c : scan.feature_class) {
     result.colours.push_back(colours.at(c < colours.size() ? c : 0));
@@ -109,17 +115,18 @@ ScanColours colours_of(const ShownScan& scan, ScanColour by) {
     case ScanColour::kRing:
       return scaled(scan.ring, count, ColourMap::kViridis, "ring", "");
     case ScanColour::kTime:
-      return scaled(scan.time_s, count, ColourMap::kViridis, "time", " s after the stamp");
+      return scaled(scan.time_s, count, ColourMap::kViridis, "time after the stamp", "s");
     case ScanColour::kHeight:
-      return scaled(heights(scan), count, ColourMap::kViridis, "height", " m");
+      return scaled(heights(scan), count, ColourMap::kViridis, "height", "m");
     case ScanColour::kIntensity:
       return scaled(scan.intensity, count, ColourMap::kCividis, "intensity", "");
     case ScanColour::kResidual: {
-      ScanColours result =
-          grey(count, fmt::format("residual of matched points -{0:g} .. {0:g} m", kResidualScale));
-      for (double r = -kResidualScale; r <= kResidualScale; r += kResidualScale / 16) {
-        result.samples.push_back(residual_colour(r));
+      ScanColours result = grey(count, "residual of the matched points [m]; all others grey");
+      for (int k = -kResidualShades; k <= kResidualShades; ++k) {
+        result.legend.samples.push_back(residual_colour(kResidualScale * k / kResidualShades));
       }
+      result.legend.labels = {fmt::format("-{:g}", kResidualScale),
+                              fmt::format("{:g}", kResidualScale)};
       return result;
     }
   }

@@ -75,4 +75,10 @@ std::optional<std::size_t> parse_place(const std::string& text, const Timeline& 
   return std::min(static_cast<std::size_t>(*number), timeline.size() - 1);
 }
 
+bool is_place_known(const std::string& text, const Timeline& timeline) {
+  if (timeline.complete()) return true;
+  const auto frame = parse_place(text, timeline);
+  return frame && *frame + 1 < timeline.size();
+}
+
 }  // namespace traverse::replay

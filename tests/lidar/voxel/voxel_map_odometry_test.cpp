@@ -11,6 +11,7 @@
 #include "traverse/optimization/jacobian_audit.hpp"
 
 #include "lidar/odometry_trial.hpp"
+#include "lidar/shown_matches.hpp"
 #include "lidar/simulated_drive.hpp"
 
 namespace traverse::lidar::voxel {
@@ -53,6 +54,15 @@ TEST_F(VoxelStreet, FollowsADriveThatStartsAtSpeed) {
     EXPECT_EQ(frames[i].points, street().scans[i].size());
   }
   EXPECT_LT(worst_position_error(frames, street()), 0.06);  // over 18 m, range noise 2 cm
+}
+
+TEST_F(VoxelStreet, ShowsItsMatchesAndItsMap) {
+  VoxelMapOdometry odometry(quick_start(), street().scanner.profile, false);
+  EXPECT_TRUE(odometry.matches().empty());
+  EXPECT_TRUE(odometry.local_map().empty());
+  std::vector<Frame> frames;
+  for (const auto& scan : street().scans) frames = odometry.process(scan);
+  testing::expect_consistent_view(odometry, frames.back(), 1.5);
 }
 
 TEST_F(VoxelStreet, ItsFactorsAreKinds) {

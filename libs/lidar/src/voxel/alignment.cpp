@@ -92,7 +92,7 @@ void bind(config::Binder& b, AlignmentOptions& o) {
 
 Alignment align(const SweepSample& sample, const VoxelMap& map, const MotionModel& motion,
                 const geometry::Pose3& guess_T_map_lidar, const AlignmentOptions& options,
-                const Effort& effort, Workers& workers, StageTimes& ms) {
+                const Effort& effort, Workers& workers, ScanMatches& matches, StageTimes& ms) {
   Stopwatch watch;
   Alignment result;
   result.T_map_lidar = guess_T_map_lidar;
@@ -100,7 +100,7 @@ Alignment align(const SweepSample& sample, const VoxelMap& map, const MotionMode
   const double scale_m = median(sample.planar.range);
   LocalPoints planar;
   LocalPoints edges;
-  ScanMatches matches;
+  matches.forget();
   for (int round = 0; round < options.rounds + effort.extra_rounds; ++round) {
     const geometry::Twist velocity = motion.velocity_at(result.T_map_lidar);
     to_local(sample.planar, result.T_map_lidar, velocity, workers, planar);

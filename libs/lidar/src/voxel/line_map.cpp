@@ -90,8 +90,7 @@ void LineMap::keep_near(const Eigen::Vector3d& centre_map, double radius_m) {
   std::size_t kept = 0;
   for (std::size_t k = 0; k < cold_.size(); ++k) {
     const auto& c = cold_[k].number;
-    const Eigen::Vector3d middle =
-        options_.cell_m * Eigen::Vector3d(c[0] + 0.5, c[1] + 0.5, c[2] + 0.5);
+    const Eigen::Vector3d middle = cell_centre(c[0], c[1], c[2], options_.cell_m);
     if ((middle - centre_map).squaredNorm() > radius_m * radius_m) continue;
     cold_[kept] = cold_[k];
     lines_[kept++] = lines_[k];
@@ -103,6 +102,16 @@ void LineMap::keep_near(const Eigen::Vector3d& centre_map, double radius_m) {
     const auto& c = cold_[k].number;
     table_.find_or_add(cell_key(c[0], c[1], c[2]), k);
   }
+}
+
+std::vector<Eigen::Vector3d> LineMap::points() const {
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t k = 0; k < cold_.size(); ++k) {
+    if (!lines_[k].is_line) continue;
+    const auto& c = cold_[k].number;
+    points.push_back(cell_centre(c[0], c[1], c[2], options_.cell_m) + cold_[k].moments.mean());
+  }
+  return points;
 }
 
 std::size_t LineMap::bytes() const {

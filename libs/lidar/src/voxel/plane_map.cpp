@@ -230,7 +230,7 @@ void PlaneMap::keep_near(const Eigen::Vector3d& centre_map, double radius_m, Wor
     std::uint32_t kept = 0;
     for (std::uint32_t k = 0; k < coarse.cold.size(); ++k) {
       const CellNumber& c = coarse.numbers[k];
-      const Eigen::Vector3d middle = coarse_m * Eigen::Vector3d(c.x + 0.5, c.y + 0.5, c.z + 0.5);
+      const Eigen::Vector3d middle = cell_centre(c.x, c.y, c.z, coarse_m);
       if ((middle - centre_map).squaredNorm() > radius_m * radius_m) continue;
       coarse.move(k, kept);
       moved_to[k] = kept++;
@@ -245,6 +245,20 @@ void PlaneMap::keep_near(const Eigen::Vector3d& centre_map, double radius_m, Wor
     }
     fine.keep_first(fine_kept);
   });
+}
+
+std::vector<Eigen::Vector3d> PlaneMap::points() const {
+  std::vector<Eigen::Vector3d> points;
+  for (const Shard& shard : shards_) {
+    const Level& fine = shard.fine;
+    for (std::size_t k = 0; k < fine.cold.size(); ++k) {
+      const PlaneCell& plane = fine.planes[k];
+      if (plane.is_plane == 0 && shard.coarse.planes[plane.parent].is_plane == 0) continue;
+      const CellNumber& c = fine.numbers[k];
+      points.push_back(cell_centre(c.x, c.y, c.z, options_.cell_m) + fine.cold[k].moments.mean());
+    }
+  }
+  return points;
 }
 
 std::size_t PlaneMap::size() const {

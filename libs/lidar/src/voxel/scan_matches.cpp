@@ -84,6 +84,14 @@ void PlaneRows::resize(std::size_t rows) {
   for (auto* values : {&x, &y, &z, &time, &nx, &ny, &nz, &d, &weight}) values->resize(rows);
 }
 
+std::size_t PlaneRows::bytes() const { return 9 * size() * sizeof(float); }
+
+std::size_t ScanMatches::bytes() const {
+  return planes.bytes() + line_1.bytes() + line_2.bytes() +
+         plane_answers.size() * sizeof(Remembered<PlaneMap::Answer>) +
+         line_answers.size() * sizeof(Remembered<LineMap::Answer>);
+}
+
 void ScanMatches::forget() {
   plane_answers.clear();
   line_answers.clear();

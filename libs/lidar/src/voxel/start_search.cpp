@@ -33,6 +33,7 @@ class Follower {
     StageTimes ignored;
     Hypothesis result{start, 0};
     geometry::Twist velocity = start;
+    ScanMatches matches;
     VoxelMap map(map_options_);
     map.insert(scans_[0], geometry::Pose3::identity(), deskew_twist(velocity), workers);
     geometry::Pose3 previous;
@@ -40,7 +41,7 @@ class Follower {
       const double dt = intervals_s_[i - 1];
       const geometry::Pose3 guess = previous * geometry::exp_se3(dt * velocity);
       const Alignment found = align(scans_[i], map, {previous, dt, deskew_}, guess, alignment_,
-                                    kMuchEffort, workers, ignored);
+                                    kMuchEffort, workers, matches, ignored);
       velocity = geometry::log_se3(previous.inverse() * found.T_map_lidar) / dt;
       if (i == 1) result.velocity = velocity;
       result.support += support_of(found);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "traverse/lidar/deskew.hpp"
+#include "traverse/lidar/voxel/matched_points.hpp"
 #include "traverse/lidar/voxel/row_factor_kinds.hpp"
 #include "traverse/lidar/voxel/used_points.hpp"
 #include "traverse/sensors/sweep_timing.hpp"
@@ -15,14 +17,6 @@ namespace traverse::lidar::voxel {
 namespace {
 
 constexpr Effort kFirstFrames{4, 2};
-
-std::string describe_deskew(bool wanted, const sensors::LidarProfile& profile,
-                            bool motion_compensated) {
-  if (!wanted) return "off by configuration";
-  if (motion_compensated) return "off: the recording is motion-compensated";
-  if (profile.time_source == sensors::TimeSource::kNone) return "off: point times are unknown";
-  return "on";
-}
 
 }  // namespace
 
@@ -41,21 +35,16 @@ VoxelMapOdometry::VoxelMapOdometry(const VoxelMapOdometryOptions& options,
                                    const sensors::LidarProfile& profile, bool motion_compensated)
     : options_(options),
       profile_(profile),
-      deskew_note_(describe_deskew(options.deskew, profile, motion_compensated)),
+      deskew_note_(lidar::deskew_note(options.deskew, profile, motion_compensated)),
       workers_(std::make_shared<Workers>(options.threads)),
-      map_(options.map) {}
+      map_(options.map),
+      held_back_(options.start.scans) {}
 
 std::vector<Frame> VoxelMapOdometry::process(const sensors::LidarScan& scan) {
-  SweepSample sample = sample_sweep(scan, profile_, options_.sampling, *workers_);
-  if (begun_) return {advance(sample, 0)};
-  held_back_.push_back(std::move(sample));
-  const bool enough = static_cast<int>(held_back_.size()) >= std::max(1, options_.start.scans);
-  return enough ? begin() : std::vector<Frame>{};
+  return advance_all(held_back_.add(sample_sweep(scan, profile_, options_.sampling, *workers_)));
 }
 
-std::vector<Frame> VoxelMapOdometry::finish() {
-  return begun_ || held_back_.empty() ? std::vector<Frame>{} : begin();
-}
+std::vector<Frame> VoxelMapOdometry::finish() { return advance_all(held_back_.release()); }
 
 CorrectedScan VoxelMapOdometry::used_scan(const sensors::LidarScan& scan,
                                           const geometry::Twist& velocity,
@@ -69,25 +58,34 @@ CorrectedScan VoxelMapOdometry::used_scan(const sensors::LidarScan& scan,
   return used;
 }
 
+std::vector<Eigen::Vector3d> VoxelMapOdometry::local_map() const {
+  std::vector<Eigen::Vector3d> points = map_.planes().points();
+  const std::vector<Eigen::Vector3d> on_lines = map_.lines().points();
+  points.insert(points.end(), on_lines.begin(), on_lines.end());
+  return points;
+}
+
+std::vector<MatchedPoint> VoxelMapOdometry::matches() const {
+  const bool deskew = deskew_note_ == "on";
+  return matched_points(matches_, T_map_last_, deskew ? velocity_ : geometry::Twist::Zero());
+}
+
 std::vector<optimization::FactorUse> VoxelMapOdometry::factors() const { return row_factors(); }
 
-std::vector<Frame> VoxelMapOdometry::begin() {
-  begun_ = true;
+std::vector<Frame> VoxelMapOdometry::advance_all(const std::vector<SweepSample>& scans) {
   Stopwatch watch;
   double start_ms = 0;
-  if (options_.start.scans >= 2 && held_back_.size() >= 2) {
+  if (frames_ == 0 && scans.size() >= 2) {
     std::vector<double> intervals_s;
-    for (std::size_t i = 1; i < held_back_.size(); ++i) {
-      intervals_s.push_back(interval(held_back_[i - 1].stamp, held_back_[i].stamp));
+    for (std::size_t i = 1; i < scans.size(); ++i) {
+      intervals_s.push_back(interval(scans[i - 1].stamp, scans[i].stamp));
     }
-    velocity_ = find_initial_velocity(held_back_, intervals_s, deskew_note_ == "on", options_.map,
+    velocity_ = find_initial_velocity(scans, intervals_s, deskew_note_ == "on", options_.map,
                                       options_.alignment, options_.start, *workers_);
     watch.lap(start_ms);
   }
   std::vector<Frame> frames;
-  for (const SweepSample& held : held_back_)
-    frames.push_back(advance(held, std::exchange(start_ms, 0)));
-  held_back_ = {};
+  for (const SweepSample& scan : scans) frames.push_back(advance(scan, std::exchange(start_ms, 0)));
   return frames;
 }
 
@@ -114,7 +112,7 @@ Frame VoxelMapOdometry::advance(const SweepSample& sample, double start_ms) {
     const Effort effort =
         frames_ < static_cast<std::size_t>(options_.first_frames) ? kFirstFrames : Effort{};
     const Alignment alignment = align(sample, map_, {T_map_last_, dt, deskew}, predicted,
-                                      options_.alignment, effort, *workers_, frame.ms);
+                                      options_.alignment, effort, *workers_, matches_, frame.ms);
     frame.T_map_lidar = alignment.T_map_lidar.orthonormalised();
     frame.health = alignment.health;
     if (frame.health.registered) {

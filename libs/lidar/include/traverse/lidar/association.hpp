@@ -37,6 +37,9 @@ struct Matches {
   std::vector<PlaneMatch> planes;
 
   std::size_t size() const { return lines.size() + planes.size(); }
+  std::size_t bytes() const {
+    return lines.size() * sizeof(LineMatch) + planes.size() * sizeof(PlaneMatch);
+  }
 };
 
 struct AssociationOptions {

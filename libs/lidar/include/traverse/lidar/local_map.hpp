@@ -30,6 +30,7 @@ class LocalMap {
   void follow(const Eigen::Vector3d& centre_map);
 
   std::size_t size() const { return points_.size(); }
+  std::size_t bytes() const;  ///< of memory that a copy takes, about
   std::span<const Eigen::Vector3d> points() const { return points_; }
 
   /// Builds the search index over the present points; insert() and follow() drop it.

@@ -66,6 +66,9 @@ class Odometry {
   /// in one line: `return std::make_unique<ThisClass>(*this);`
   virtual std::unique_ptr<Odometry> clone() const = 0;
 
+  /// About how much memory a copy takes.
+  virtual std::size_t bytes() const = 0;
+
   /// The points that the next scan will be registered on, map frame; empty if there is no such map.
   virtual std::vector<Eigen::Vector3d> local_map() const { return {}; }
 

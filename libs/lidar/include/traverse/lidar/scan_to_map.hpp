@@ -1,5 +1,9 @@
 #pragma once
 
+#include <vector>
+
+#include <Eigen/Core>
+
 #include "traverse/lidar/association.hpp"
 #include "traverse/lidar/frame.hpp"
 #include "traverse/lidar/local_map.hpp"
@@ -44,6 +48,10 @@ class ScanToMap {
   void insert(const ScanFeatures& features, const geometry::Pose3& T_map_lidar,
               const geometry::Twist& velocity, StageTimes& ms);
 
+  /// Of the edge map, then of the planar map; map frame.
+  std::vector<Eigen::Vector3d> points() const;
+
+  std::size_t bytes() const { return edge_map_.bytes() + planar_map_.bytes(); }
   std::size_t size() const { return edge_map_.size() + planar_map_.size(); }
   const LocalMap& edge_map() const { return edge_map_; }
   const LocalMap& planar_map() const { return planar_map_; }

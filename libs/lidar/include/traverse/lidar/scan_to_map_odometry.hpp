@@ -7,6 +7,7 @@
 
 #include "traverse/config/binder.hpp"
 #include "traverse/lidar/frame.hpp"
+#include "traverse/lidar/held_back.hpp"
 #include "traverse/lidar/odometry.hpp"
 #include "traverse/lidar/scan_to_map.hpp"
 #include "traverse/lidar/speed_search.hpp"
@@ -52,14 +53,20 @@ class ScanToMapOdometry final : public Odometry {
   std::unique_ptr<Odometry> clone() const override {
     return std::make_unique<ScanToMapOdometry>(*this);
   }
-  std::vector<Eigen::Vector3d> local_map() const override;
+  std::size_t bytes() const override { return map_.bytes() + matches_.bytes(); }
+  std::vector<Eigen::Vector3d> local_map() const override { return map_.points(); }
   std::vector<MatchedPoint> matches() const override;
 
   const ScanToMap& map() const { return map_; }
 
  private:
-  std::vector<Frame> begin();
-  Frame advance(const ScanFeatures& features, const StageTimes& prepared);
+  struct Prepared {
+    ScanFeatures features;
+    StageTimes ms;
+  };
+
+  std::vector<Frame> advance_all(std::vector<Prepared> scans);
+  Frame advance(const Prepared& scan);
   int steps_of_this_frame() const;
 
   ScanToMapOdometryOptions options_;
@@ -67,13 +74,7 @@ class ScanToMapOdometry final : public Odometry {
   std::string deskew_note_;
   ScanToMapOptions scan_to_map_;
   ScanToMap map_;
-
-  struct Prepared {
-    ScanFeatures features;
-    StageTimes ms;
-  };
-  std::vector<Prepared> held_back_;
-  bool begun_ = false;
+  HeldBack<Prepared> held_back_;
 
   std::size_t frames_ = 0;
   geometry::Stamp last_stamp_;

@@ -7,6 +7,7 @@
 
 #include "traverse/config/binder.hpp"
 #include "traverse/lidar/frame.hpp"
+#include "traverse/lidar/held_back.hpp"
 #include "traverse/lidar/imu_prediction.hpp"
 #include "traverse/lidar/odometry.hpp"
 #include "traverse/lidar/scan_to_map.hpp"
@@ -66,7 +67,12 @@ class TwoStageOdometry final : public Odometry {
   const std::vector<std::string>& further_columns() const override;
   std::unique_ptr<Odometry> clone() const override {
     return std::make_unique<TwoStageOdometry>(*this);
-  }
+  }  /// Copies share the points of the last sweep.
+  std::size_t bytes() const override { return map_.bytes() + matches_.bytes(); }
+
+  /// Map and matches of the second stage; empty without it.
+  std::vector<Eigen::Vector3d> local_map() const override;
+  std::vector<MatchedPoint> matches() const override;
 
   /// Those of both stages: swept ones where the first moves each point by its share.
   std::vector<optimization::FactorUse> factors() const override;
@@ -81,8 +87,8 @@ class TwoStageOdometry final : public Odometry {
     StageTimes ms;
   };
 
-  std::vector<Frame> begin();
-  geometry::Twist initial_velocity(StageTimes& ms) const;
+  std::vector<Frame> advance_all(std::vector<Prepared> scans);
+  geometry::Twist initial_velocity(std::vector<Prepared>& first) const;
   Frame advance(const Prepared& scan);
   MotionPrediction predict(geometry::Stamp stamp) const;
 
@@ -94,8 +100,7 @@ class TwoStageOdometry final : public Odometry {
   ScanToMap map_;
   ImuPrediction imu_;
 
-  std::vector<Prepared> held_back_;
-  bool begun_ = false;
+  HeldBack<Prepared> held_back_;
 
   std::size_t frames_ = 0;
   geometry::Stamp last_stamp_;
@@ -103,6 +108,7 @@ class TwoStageOdometry final : public Odometry {
   geometry::Pose3 T_map_odom_;
   geometry::Pose3 T_map_last_;
   geometry::Twist velocity_ = geometry::Twist::Zero();  // between the last two frames
+  Matches matches_;                                     // of the last frame, in the map
 };
 
 }  // namespace traverse::lidar

@@ -76,6 +76,9 @@ class Estimator {
   /// An independent copy: fed the same measurements, both give the same bits (wall times aside).
   virtual std::unique_ptr<Estimator> clone() const = 0;
 
+  /// About how much memory a copy takes, where it is more than a few kilobytes.
+  virtual std::size_t bytes() const { return 0; }
+
   /// The points that the next scan will be registered on, map frame; empty if there is no such map.
   virtual std::vector<Eigen::Vector3d> local_map() const { return {}; }
 

@@ -25,6 +25,8 @@ struct State {
   std::deque<sensors::Measurement> waiting;  ///< scans fed, whose frames are not known yet
   std::deque<pipeline::PoseFrame> ready;     ///< frames known, but not shown
   bool finished = false;                     ///< the recording is through
+
+  std::size_t bytes() const;  ///< of memory, about; a scan counts for each state that waits for it
 };
 
 /// A state and the place of the recording that it goes on from.
@@ -34,16 +36,21 @@ struct Checkpoint {
   std::size_t measurements = 0;                    ///< ... and pass over so many
 };
 
-/// Checkpoints along the way, bounded in number: dense near the present frame, where steps back
-/// are likely, and ever farther apart away from it. The first is never dropped.
+/// Checkpoints along the way, bounded in number and in bytes: dense near the present frame, where
+/// steps back are likely, and ever farther apart away from it. The first and the newest are never
+/// dropped.
 class Checkpoints {
  public:
   static constexpr std::size_t kMost = 24;
+  static constexpr std::size_t kMostBytes = 512UL << 20;
+
+  explicit Checkpoints(std::size_t most_bytes = kMostBytes) : most_bytes_(most_bytes) {}
 
   bool has(std::size_t frame) const { return by_frame_.count(frame) != 0; }
   std::size_t size() const { return by_frame_.size(); }
+  std::size_t bytes() const { return bytes_; }  ///< of all, about
   std::vector<std::size_t> frames() const;
-  void clear() { by_frame_.clear(); }
+  void clear();
 
   /// Keeps a checkpoint from which `checkpoint.state.next_frame` is the next.
   void add(Checkpoint checkpoint);
@@ -52,9 +59,16 @@ class Checkpoints {
   const Checkpoint* before(std::size_t frame) const;
 
  private:
-  void drop_one(std::size_t present_frame);
+  struct Kept {
+    Checkpoint checkpoint;
+    std::size_t bytes;
+  };
 
-  std::map<std::size_t, Checkpoint> by_frame_;
+  bool drop_one(std::size_t present_frame);
+
+  std::size_t most_bytes_;
+  std::size_t bytes_ = 0;
+  std::map<std::size_t, Kept> by_frame_;
 };
 
 }  // namespace traverse::replay

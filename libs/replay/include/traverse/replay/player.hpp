@@ -58,6 +58,7 @@ struct PlayerStatus {
   bool frames_complete = false;
   double index_share = 0;  ///< of the recording that the index has been through
   std::size_t checkpoints = 0;
+  std::size_t checkpoint_bytes = 0;
   std::string pipeline;
   std::string error;        ///< why the estimator cannot go on; empty if all is well
   std::string message;      ///< of the last thing that was done: "saved ..."
@@ -78,7 +79,8 @@ class Player {
 
   /// Does something to the controls.
   void control(const std::function<void(Controls&)>& change);
-  /// Seeks to what a person typed (parse_place()). \returns false if it names no frame
+  /// Seeks to what a person typed (parse_place()); again and again while the index has not come to
+  /// it, until another seek or step. \returns false if it names no frame
   bool seek(const std::string& place);
 
   PlayerStatus status() const;
@@ -110,6 +112,7 @@ class Player {
   void save(const std::filesystem::path& folder);
 
  private:
+  void seek_again();
   void estimate();
   void build_index();
   bool work_once(double seconds);
@@ -131,6 +134,7 @@ class Player {
   std::condition_variable changed_;
   Controls controls_;
   Timeline timeline_;
+  std::optional<std::string> ahead_;  // a place asked for that the index has not come to
   std::vector<FrameIndex::Skipped> skipped_;
   std::vector<pipeline::ResolvedSetting> settings_;
   std::vector<PastFrame> past_;

@@ -28,11 +28,17 @@ std::optional<ScanColour> scan_colour_named(std::string_view name);
 /// Residuals of this size take the ends of the diverging scale, metres.
 inline constexpr double kResidualScale = 0.1;
 
+/// What colours mean.
+struct ColourLegend {
+  std::string title;  ///< with the unit: "height [m], 2nd to 98th percentile"
+  std::vector<render::Colour> samples;
+  /// One for each sample, or for the samples' ends.
+  std::vector<std::string> labels;
+};
+
 struct ScanColours {
   std::vector<render::Colour> colours;  ///< one a point
-  std::string legend;                   ///< what the colours mean, with the range and its unit
-  /// Samples of the colours in order: one for each word of the legend, or along its range.
-  std::vector<render::Colour> samples;
+  ColourLegend legend;
 };
 
 /// Colours for the points of a scan. Ranges end at the 2nd and 98th percentile. What the scan does

@@ -47,6 +47,9 @@ class Session {
   /// Where go_to() last came to, with the estimator as it is there; nothing before the first frame.
   const std::optional<SessionFrame>& frame() const { return frame_; }
   const pipeline::Estimator& estimator() const { return *state_.estimator; }
+  /// Whether frame() is the newest that the estimator knows. Behind a start that was held back it
+  /// is ahead for a few frames, and its matches are those of another scan.
+  bool estimator_is_at_frame() const { return frame_ && state_.ready.empty(); }
   const dataset::Source& source() const { return *source_; }
 
   std::size_t origin() const { return origin_; }

@@ -51,4 +51,8 @@ class Timeline {
 /// of these
 std::optional<std::size_t> parse_place(const std::string& text, const Timeline& timeline);
 
+/// Whether what the text names will not change when more frames become known: it lies before the
+/// last one, or all are known.
+bool is_place_known(const std::string& text, const Timeline& timeline);
+
 }  // namespace traverse::replay

@@ -38,8 +38,9 @@ struct Effort {
 /// associates at the present pose, then Ceres minimises the robust cost of these matches (one
 /// condensed cost function, whose derivative is analytic). The step of a round is projected on the
 /// directions that the matches determine: a degenerate one keeps its prediction.
+/// \param matches of the last round, on return; what it held before does not matter
 Alignment align(const SweepSample& sample, const VoxelMap& map, const MotionModel& motion,
                 const geometry::Pose3& guess_T_map_lidar, const AlignmentOptions& options,
-                const Effort& effort, Workers& workers, StageTimes& ms);
+                const Effort& effort, Workers& workers, ScanMatches& matches, StageTimes& ms);
 
 }  // namespace traverse::lidar::voxel

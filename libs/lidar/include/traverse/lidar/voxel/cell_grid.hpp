@@ -38,6 +38,11 @@ struct CellGrid {
   }
 };
 
+/// Centre of a cell of edge `cell_m`, map frame.
+inline Eigen::Vector3d cell_centre(std::int32_t x, std::int32_t y, std::int32_t z, double cell_m) {
+  return cell_m * Eigen::Vector3d(x + 0.5, y + 0.5, z + 0.5);
+}
+
 /// An origin near `position_map` for the floats of a frame; the same for neighbouring positions.
 Eigen::Vector3d origin_near(const Eigen::Vector3d& position_map);
 

@@ -44,6 +44,9 @@ class LineMap {
   void prefetch(const CellGrid& grid, const RelativeCell& cell) const;
 
   CellGrid grid(const Eigen::Vector3d& origin_map) const { return {origin_map, options_.cell_m}; }
+  /// For each cell with a line the mean of its points, map frame; for the eye.
+  std::vector<Eigen::Vector3d> points() const;
+
   std::size_t size() const { return cold_.size(); }
   std::size_t bytes() const;
 

@@ -59,6 +59,9 @@ class PlaneMap {
   void prefetch_plane(const CellGrid& grid, const RelativeCell& cell) const;
 
   CellGrid grid(const Eigen::Vector3d& origin_map) const { return {origin_map, options_.cell_m}; }
+  /// For each fine cell for which a plane answers the mean of its points, map frame; for the eye.
+  std::vector<Eigen::Vector3d> points() const;
+
   std::size_t size() const;   ///< fine cells, with a plane or without
   std::size_t bytes() const;  ///< of memory held
 

@@ -24,6 +24,7 @@ struct PlaneRows {
 
   void resize(std::size_t rows);
   std::size_t size() const { return x.size(); }
+  std::size_t bytes() const;
 };
 
 /// The matches of one scan with the map. A line match is row i of `line_1` and of `line_2`: the
@@ -36,6 +37,8 @@ struct ScanMatches {
   double scale = 1;  ///< robust standard deviation of the plane residuals over their weights
 
   std::size_t size() const { return planes.size() + line_1.size(); }
+
+  std::size_t bytes() const;  ///< of memory that a copy takes
 
   /// What the map answered for a point's cell. Most points stay in theirs from round to round.
   template <typename Answer>

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "traverse/lidar/held_back.hpp"
 #include "traverse/lidar/odometry.hpp"
 #include "traverse/lidar/voxel/start_search.hpp"
 
@@ -52,13 +53,18 @@ class VoxelMapOdometry final : public Odometry {
   std::unique_ptr<Odometry> clone() const override {
     return std::make_unique<VoxelMapOdometry>(*this);
   }
+  std::size_t bytes() const override { return map_.bytes() + matches_.bytes(); }
+
+  /// The middle of the points of each cell that has a plane or a line.
+  std::vector<Eigen::Vector3d> local_map() const override;
+  std::vector<MatchedPoint> matches() const override;
   /// The rows of row_factor_kinds(), of which the cost is the sum.
   std::vector<optimization::FactorUse> factors() const override;
 
   const VoxelMap& map() const { return map_; }
 
  private:
-  std::vector<Frame> begin();
+  std::vector<Frame> advance_all(const std::vector<SweepSample>& scans);
   Frame advance(const SweepSample& sample, double start_ms);
   double interval(geometry::Stamp earlier, geometry::Stamp later) const;
 
@@ -68,13 +74,13 @@ class VoxelMapOdometry final : public Odometry {
   std::shared_ptr<Workers> workers_;  ///< copies share the threads, which hold no state
   VoxelMap map_;
 
-  std::vector<SweepSample> held_back_;
-  bool begun_ = false;
+  HeldBack<SweepSample> held_back_;
 
   std::size_t frames_ = 0;
   geometry::Stamp last_stamp_;
   geometry::Pose3 T_map_last_;
   geometry::Twist velocity_ = geometry::Twist::Zero();  // at the last frame
+  ScanMatches matches_;  // of the last frame; kept for its memory too
 };
 
 }  // namespace traverse::lidar::voxel
