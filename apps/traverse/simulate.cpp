@@ -183,7 +183,7 @@ void simulate(const SimulateArguments& arguments) {
   const bool kitti = is_kitti(arguments);
   const dataset::RecordingInfo info = describe(simulation, arguments, scans);
   const dataset::Reference truth{simulation.truth(sweeps), arguments.output,
-                                 "exact truth of the simulation"};
+                                 "exact truth of the simulation", Eigen::Vector3d::UnitY()};
   const auto writer =
       kitti ? dataset::write_scan_folder(arguments.output, info, truth, info.rig.sensors[0].label,
                                          dataset::ScanFolderFormat::kKitti)
