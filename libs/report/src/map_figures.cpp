@@ -48,7 +48,7 @@ Eigen::Vector3d lidar_in_body(const RunData& run) {
   for (const auto& sensor : run.record.at("recording").at("sensors")) {
     if (sensor.at("kind") != "lidar" || !sensor.contains("p_body_m")) continue;
     const auto& p = sensor.at("p_body_m");
-    return {p.at(0), p.at(1), p.at(2)};
+    return Eigen::Vector3d(p.at(0), p.at(1), p.at(2));
   }
   return Eigen::Vector3d::Zero();
 }
