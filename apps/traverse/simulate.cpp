@@ -184,7 +184,7 @@ void simulate(const SimulateArguments& arguments) {
   const dataset::RecordingInfo info = describe(simulation, arguments, scans);
   const dataset::Reference truth{
       kitti ? simulation.truth(sweeps) : simulation.truth_of_all_sensors(sweeps), arguments.output,
-      "exact truth of the simulation"};
+      "exact truth of the simulation", Eigen::Vector3d::UnitY()};
   const auto writer =
       kitti ? dataset::write_scan_folder(arguments.output, info, truth, info.rig.sensors[0].label,
                                          dataset::ScanFolderFormat::kKitti)

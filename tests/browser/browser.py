@@ -1,30 +1,55 @@
 """A headless Chromium, driven over the DevTools protocol."""
 import base64
 import json
+import os
 import pathlib
+import select
+import signal
 import subprocess
 import tempfile
 import time
 
-import websocket
-
 
 class Browser:
-    """One page in a browser of its own; what it logs and asks for is kept."""
+    """One page in a browser of its own; what it logs and asks for is kept.
+
+    It listens on a pipe and ends when that is closed: however this program ends, nothing of the
+    browser is left. (Debian's command is a shell script; ending it would leave its children.)"""
 
     def __init__(self, width=1280, height=900, dark=False, scripts=True, webgl=True):
-        self.profile = tempfile.TemporaryDirectory(prefix="traverse-browser-")
-        graphics = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"] if webgl else [
-            "--disable-gpu", "--disable-3d-apis"]
-        self.process = subprocess.Popen(
-            ["chromium-headless-shell", "--no-sandbox", "--hide-scrollbars", *graphics,
-             "--remote-debugging-port=0", "--remote-allow-origins=*",
-             f"--user-data-dir={self.profile.name}", f"--window-size={width},{height}",
-             "about:blank"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.profile = tempfile.TemporaryDirectory(prefix="traverse-browser-",
+                                                   ignore_cleanup_errors=True)
         self.problems = []
         self.requests = []
         self.number = 0
-        self.socket = websocket.create_connection(self._page_address(), timeout=60)
+        self.session = None
+        self.received = b""
+        self._start(width, height, webgl)
+        try:
+            self._attach(width, height, dark, scripts)
+        except BaseException:
+            self.close()
+            raise
+
+    def _start(self, width, height, webgl):
+        graphics = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"] if webgl else [
+            "--disable-gpu", "--disable-3d-apis"]
+        commands, self.commands = os.pipe()
+        self.answers, answers = os.pipe()
+        self.process = subprocess.Popen(
+            ["sh", "-c", f'exec chromium-headless-shell "$@" 3<&{commands} 4>&{answers}', "sh",
+             "--no-sandbox", "--hide-scrollbars", *graphics, "--remote-debugging-pipe",
+             f"--user-data-dir={self.profile.name}", f"--window-size={width},{height}",
+             "about:blank"], pass_fds=(commands, answers), start_new_session=True,
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(commands)
+        os.close(answers)
+
+    def _attach(self, width, height, dark, scripts):
+        targets = self.call("Target.getTargets")["targetInfos"]
+        page = next(target for target in targets if target["type"] == "page")
+        self.session = self.call("Target.attachToTarget", targetId=page["targetId"],
+                                 flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.call(f"{domain}.enable")
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
@@ -34,30 +59,39 @@ class Browser:
         if not scripts:
             self.call("Emulation.setScriptExecutionDisabled", value=True)
 
-    def _page_address(self):
-        from urllib.request import urlopen
-        port_file = pathlib.Path(self.profile.name, "DevToolsActivePort")
-        for _ in range(600):
-            if port_file.exists() and port_file.read_text().count("\n") >= 1:
-                port = port_file.read_text().split()[0]
-                targets = json.load(urlopen(f"http://127.0.0.1:{port}/json"))
-                for target in targets:
-                    if target["type"] == "page":
-                        return target["webSocketDebuggerUrl"]
-            time.sleep(0.05)
-        raise RuntimeError("the browser does not answer")
-
     def __enter__(self):
         return self
 
     def __exit__(self, *_):
-        self.socket.close()
-        self.process.terminate()
-        self.process.wait(20)
+        self.close()
+
+    def close(self):
+        os.close(self.commands)
+        os.close(self.answers)
         try:
-            self.profile.cleanup()
-        except OSError:
-            pass
+            self.process.wait(20)
+        except subprocess.TimeoutExpired:
+            os.killpg(self.process.pid, signal.SIGKILL)
+            self.process.wait()
+        self.profile.cleanup()
+
+    def _send(self, message):
+        data = json.dumps(message).encode() + b"\0"
+        while data:
+            data = data[os.write(self.commands, data):]
+
+    def _receive(self, seconds=120):
+        """The next message; on the pipe they end in a zero byte."""
+        end = time.monotonic() + seconds
+        while b"\0" not in self.received:
+            if not select.select([self.answers], [], [], max(0, end - time.monotonic()))[0]:
+                raise RuntimeError("the browser does not answer")
+            part = os.read(self.answers, 1 << 20)
+            if not part:
+                raise RuntimeError("the browser has ended")
+            self.received += part
+        message, _, self.received = self.received.partition(b"\0")
+        return json.loads(message)
 
     def _take(self, message):
         method = message.get("method")
@@ -77,9 +111,12 @@ class Browser:
 
     def call(self, method, **parameters):
         self.number += 1
-        self.socket.send(json.dumps({"id": self.number, "method": method, "params": parameters}))
+        message = {"id": self.number, "method": method, "params": parameters}
+        if self.session:
+            message["sessionId"] = self.session
+        self._send(message)
         while True:
-            message = json.loads(self.socket.recv())
+            message = self._receive()
             if message.get("id") == self.number:
                 if "error" in message:
                     raise RuntimeError(f"{method}: {message['error']['message']}")
@@ -124,13 +161,15 @@ class Browser:
         self.mouse("mousePressed", px, py, button="left", clickCount=1)
         self.mouse("mouseReleased", px, py, button="left", clickCount=1)
 
-    def screenshot(self, file, whole=False):
+    def screenshot(self, file, selector=None):
+        """Of the window, or of an element as a whole."""
         extra = {}
-        if whole:
-            size = self.call("Page.getLayoutMetrics")["cssContentSize"]
-            extra = {"captureBeyondViewport": True,
-                     "clip": {"x": 0, "y": 0, "width": size["width"], "height": size["height"],
-                              "scale": 1}}
+        if selector:
+            box = self.js(f"""(() => {{
+                const box = document.querySelector({json.dumps(selector)}).getBoundingClientRect();
+                return {{x: 0, y: box.top + scrollY, width: innerWidth, height: box.height, scale: 1}};
+            }})()""")
+            extra = {"captureBeyondViewport": True, "clip": box}
         shot = self.call("Page.captureScreenshot", format="png", **extra)
         pathlib.Path(file).write_bytes(base64.b64decode(shot["data"]))
 

@@ -7,6 +7,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import time
 
 from browser import Browser
 
@@ -66,7 +67,8 @@ def use_page(browser, report):
     assert pixels(browser) != first, "the slider moves the vehicle"
 
     seen = pixels(browser)
-    for colour in ("time", "intensity", "height"):
+    with_error = ["error"] if embedded["scene"]["error_m"] else []
+    for colour in ("time", "intensity", *with_error, "height"):
         browser.js(f"document.getElementById('colour').value = '{colour}';"
                    "document.getElementById('colour').dispatchEvent(new Event('change'))")
         assert pixels(browser) != seen, f"the colours change to {colour}"
@@ -225,6 +227,39 @@ def test_opens_fast(folder):
         browser.open(report)
         is_ready(browser)
         assert_sound(browser, report)
+
+
+def living(group):
+    """The processes of a group that have not ended."""
+    found = []
+    for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
+        try:
+            state, _, process_group = stat.read_text().rpartition(")")[2].split()[:3]
+        except OSError:
+            continue
+        if int(process_group) == group and state != "Z":
+            found.append(int(stat.parent.name))
+    return found
+
+
+def test_browser_ends(folder):
+    """However a test ends, its browser does too: also when nothing of the test can run any more."""
+    code = "import time; from browser import Browser; b = Browser(); print(b.process.pid, flush=True); time.sleep(60)"
+    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE,
+                          cwd=pathlib.Path(__file__).parent, env={**os.environ, "TMPDIR": folder}) as test:
+        group = int(test.stdout.readline())
+        assert len(living(group)) > 1, "the browser runs"
+        test.kill()
+    end = time.monotonic() + 30
+    while living(group) and time.monotonic() < end:
+        time.sleep(0.1)
+    assert living(group) == []
+    try:
+        with Browser() as browser:
+            group = browser.process.pid
+            raise KeyError
+    except KeyError:
+        assert living(group) == []
 
 
 def use_run(run):

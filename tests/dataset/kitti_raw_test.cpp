@@ -126,6 +126,12 @@ TEST(KittiRaw, TheReferenceIsTheDevkitsPathSeenFromTheLidar) {
   EXPECT_EQ(source->info().rig.find("oxts_imu")->T_body_sensor.translation,
             Eigen::Vector3d(-0.8, 0.3, -0.8));
   EXPECT_THAT(fact_value(*source, "reference"), HasSubstr("oxts"));
+  // North is y of the Mercator map, seen from the first pose.
+  const Eigen::Matrix3d R_lidar_mercator =
+      T_lidar_imu.topLeftCorner<3, 3>() *
+      devkit_pose(fix(0), scale).topLeftCorner<3, 3>().transpose();
+  ASSERT_TRUE(source->reference()->north_map);
+  EXPECT_LT((*source->reference()->north_map - R_lidar_mercator.col(1)).norm(), 1e-9);
 }
 
 TEST(KittiRaw, TheCameraComesFromTheCalibrationOfTheDate) {

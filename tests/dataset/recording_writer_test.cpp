@@ -97,8 +97,8 @@ std::unique_ptr<Source> made_drive(const fs::path& folder) {
   std::vector<geometry::Pose3> poses(1);
   for (int i = 0; i < 3; ++i) poses.push_back(poses.back() * random.pose(0.2, 2));
   write_kitti(folder / "gt.txt", geometry::Trajectory::unstamped(poses));
-  return open(folder, {"reference.file=gt.txt", "reference.frame=lidar", "motion_compensated=false",
-                       "lidar.rings=4", "name='Made: drive #1'"});
+  return open(folder, {"reference.file=gt.txt", "reference.frame=lidar", "reference.north_deg=60",
+                       "motion_compensated=false", "lidar.rings=4", "name='Made: drive #1'"});
 }
 
 TEST(RecordingWriter, KittiToRawlogToPcdAndPlyKeepsPointsRingsAndTimes) {
@@ -151,6 +151,9 @@ TEST(RecordingWriter, FactsReferenceAndCameraGoWithTheCopy) {
                drive->reference()->T_map_body.pose(3).matrix())
                   .norm(),
               1e-14);
+    ASSERT_TRUE(copy->reference()->north_map) << copy_name;
+    EXPECT_LT((*copy->reference()->north_map - Eigen::Vector3d(0.5, std::sqrt(0.75), 0)).norm(),
+              1e-12);
     ASSERT_TRUE(copy->info().T_body_camera) << copy_name;
     EXPECT_LT((copy->info().T_body_camera->matrix() - drive->info().T_body_camera->matrix()).norm(),
               1e-14);

@@ -1,6 +1,7 @@
 #include "traverse/pipeline/run.hpp"
 
 #include <fstream>
+#include <set>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
@@ -27,6 +28,7 @@ using nlohmann::json;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::MadeSource;
+using ::testing::SizeIs;
 using testing::TemporaryFolder;
 
 geometry::Pose3 pose_at(double seconds) {
@@ -39,8 +41,9 @@ geometry::Pose3 pose_at(double seconds) {
 class KnowingEstimator : public Estimator {
  public:
   const std::vector<std::string>& columns() const override {
-    static const std::vector<std::string> kColumns{"points"};
-    return kColumns;
+    static const std::vector<std::string> kPoints{"points"};
+    static const std::vector<std::string> kWithResidual{"points", "residual_rms_m"};
+    return residual_rms_m ? kWithResidual : kPoints;
   }
   std::vector<PoseFrame> process(const sensors::Measurement& measurement) override {
     const auto scan = std::get<std::shared_ptr<const sensors::LidarScan>>(measurement);
@@ -49,6 +52,7 @@ class KnowingEstimator : public Estimator {
     frame.T_map_body = pose_at(scan->stamp.seconds());
     frame.milliseconds = 5;
     frame.record = {static_cast<double>(scan->size())};
+    if (residual_rms_m) frame.record.push_back(*residual_rms_m);
     if (fail_at && scan->stamp >= *fail_at) throw std::runtime_error("cannot go on");
     held_back_.push_back(frame);
     return held_back_.size() < 3 && !begun_ ? std::vector<PoseFrame>{} : finish();
@@ -71,6 +75,7 @@ class KnowingEstimator : public Estimator {
   }
 
   std::vector<optimization::FactorUse> uses;
+  std::optional<double> residual_rms_m;
   std::optional<geometry::Stamp> fail_at;
 
  private:
@@ -165,6 +170,35 @@ TEST_F(RunTest, WritesTheWholeFolderWithEveryFrameOnce) {
   EXPECT_EQ(record()["frames"]["used"], 20);
   EXPECT_EQ(record()["timing_ms"]["frame_median"], 5);
   EXPECT_EQ(record()["recording"]["bytes"], 3);
+}
+
+TEST_F(RunTest, KeepsHowAFrameOfTheWorstSegmentWasRegistered) {
+  run_all();
+  EXPECT_FALSE(std::filesystem::exists(run_folder_.worst_frames())) << "it tells no residuals";
+  estimator_->residual_rms_m = 0.1;
+  source_.rewind();
+  run_all();
+  const auto cloud = dataset::read_point_cloud(run_folder_.worst_frames());
+  ASSERT_NE(cloud.find("frame"), nullptr);
+  const auto frames = dataset::to_floats(*cloud.find("frame"));
+  EXPECT_THAT(std::set<float>(frames.begin(), frames.end()), SizeIs(1)) << "of 20 frames";
+  EXPECT_EQ(cloud.size(), 50U);
+  EXPECT_TRUE(std::filesystem::exists(run_folder_.record()));
+}
+
+TEST_F(RunTest, TellsNorthThroughTheReference) {
+  add_reference(0);
+  run_all();
+  EXPECT_TRUE(record()["map"]["north"].is_null());
+  // A reference that is turned by a quarter against the estimate.
+  geometry::Pose3 T_reference_map;
+  T_reference_map.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  source_.reference_->T_map_body = source_.reference_->T_map_body.transformed_left(T_reference_map);
+  source_.reference_->north_map = Eigen::Vector3d::UnitY();
+  source_.rewind();
+  run_all();
+  EXPECT_NEAR(record()["map"]["north"][0].get<double>(), 1, 1e-6);
+  EXPECT_NEAR(record()["map"]["north"][1].get<double>(), 0, 1e-6);
 }
 
 TEST_F(RunTest, ChecksTheJacobiansOfTheFactorsThatTheEstimatorUses) {

@@ -1,4 +1,5 @@
 /// What the standard pictures show of usual data.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "traverse/render/pictures/kitti_drift.hpp"
 #include "traverse/render/pictures/map_from_above.hpp"
 #include "traverse/render/pictures/scan_features.hpp"
+#include "traverse/render/pictures/scan_matches.hpp"
 #include "traverse/render/pictures/stage_times.hpp"
 #include "traverse/render/pictures/time_series.hpp"
 #include "traverse/render/pictures/trajectory_coloured.hpp"
@@ -159,6 +161,54 @@ TEST(MapFromAbove, LeavesOutFaultsAndIsNotShrunkByStrayPoints) {
   EXPECT_TRUE(says(drawing, "10\u2009000 points"));
   EXPECT_TRUE(says(drawing, "height z [m]"));
   EXPECT_TRUE(says(drawing, "52"));  // heights are those of the map
+}
+
+TEST(MapFromAbove, AnArrowPointsToNorthWhereItIsKnown) {
+  const geometry::Trajectory drive = square_drive(200, {0, 0, 0});
+  const std::vector<float> x{0, 50};
+  const MapPoints points{x, x, x, Eigen::Vector3d::Zero()};
+  EXPECT_FALSE(says(map_from_above(points, {}, &drive, kCaption, {}), "N"));
+  for (const double angle : {0.3, 2.0, -1.2}) {
+    const Eigen::Vector3d north(std::cos(angle), std::sin(angle), 0.2);
+    const Drawing drawing = map_from_above(points, {}, &drive, kCaption, {}, north);
+    const auto letter = std::find_if(drawing.texts.begin(), drawing.texts.end(),
+                                     [](const Text& text) { return text.utf8 == "N"; });
+    ASSERT_NE(letter, drawing.texts.end());
+    const auto halves = all_of_kind<Polygon>(drawing);
+    const Point tip = halves.back()->corners.at(0);
+    const Point notch = halves.back()->corners.at(2);
+    EXPECT_NEAR(std::atan2(notch.y - tip.y, tip.x - notch.x), angle, 1e-9);
+    expect_readable(drawing);
+  }
+  EXPECT_FALSE(
+      says(map_from_above(points, {}, &drive, kCaption, {}, Eigen::Vector3d(0, 0, 1)), "N"))
+      << "seen along north";
+}
+
+TEST(ScanMatches, ResidualsAreLinesOfTheStatedLength) {
+  const geometry::Trajectory drive = square_drive(20, {0, 0, 0});
+  std::vector<float> x;
+  std::vector<float> offset(200, 0.05F);
+  for (int i = 0; i < 200; ++i) x.push_back(0.1F * static_cast<float>(i));
+  const std::vector<float> none(200, 0);
+  const MapPoints points{x, x, none, Eigen::Vector3d::Zero()};
+  const Drawing drawing = scan_matches({points, points, offset, none, none}, drive, kCaption, {});
+  const auto lines = all_of_kind<Polyline>(drawing);
+  const auto residuals = std::find_if(
+      lines.begin(), lines.end(), [](const Polyline* line) { return line->points.size() == 600; });
+  ASSERT_NE(residuals, lines.end());
+  const auto& at = (*residuals)->points;
+  const double pixels_a_metre = (at[3].x - at[0].x) / 0.1;
+  const double times = (at[1].x - at[0].x) / (0.05 * pixels_a_metre);
+  EXPECT_NEAR(times, std::round(times), 1e-3);
+  EXPECT_TRUE(says(drawing, "residual, " + std::to_string(std::lround(times)) + " times as long"));
+  EXPECT_TRUE(says(drawing, "200 matches"));
+  expect_readable(drawing);
+
+  EXPECT_TRUE(says(scan_matches({points, {}, {}, {}, {}}, drive, kCaption, {}), "did not tell"));
+  EXPECT_NO_THROW(scan_matches({}, geometry::Trajectory::unstamped({}), {}, {}));
+  EXPECT_THROW(scan_matches({points, points, offset, none, {}}, drive, kCaption, {}),
+               std::invalid_argument);
 }
 
 TEST(ScanFeatures, CountsEachClassAndDrawsTheSharpestLast) {

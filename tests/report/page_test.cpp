@@ -42,7 +42,9 @@ class MadeRun {
 
   ReportModel model() const {
     const RunData run = read_run(folder.path());
-    return make_model(run, run_figures(run), worst_segments(run), nullptr);
+    const auto worst =
+        evaluation::worst_segments(run.evaluation, run.frames.column("residual_rms_m"));
+    return make_model(run, run_figures(run), worst, nullptr);
   }
   std::string page() const {
     ReportModel report = model();
@@ -210,6 +212,29 @@ TEST(RunReport, WritesPicturesAndOnePage) {
   // The twin that stands in the page is the file.
   EXPECT_THAT(files::read_text(files.report()),
               HasSubstr(files::read_text(files.report_json()).substr(0, 5000)));
+}
+
+TEST(RunReport, ShowsHowFramesOfTheWorstSegmentsWereRegistered) {
+  const MadeRun run(0.1);
+  const pipeline::RunFolder files{run.folder.path()};
+  const RunData data = read_run(run.folder.path());
+  const auto worst = evaluation::worst_segments(data.evaluation, {}).segments.at(1);
+  const auto frame = static_cast<std::uint32_t>(worst.first + 3);  // made frames count from 0
+  dataset::PointCloud cloud;
+  cloud.add("frame", std::vector<std::uint32_t>(4, frame));
+  for (const char* axis : {"x", "y", "z"}) cloud.add(axis, std::vector<float>{1, 2, 3, 4});
+  cloud.add("kind", std::vector<std::uint8_t>{0, 1, 2, 2});
+  for (const char* axis : {"offset_x", "offset_y", "offset_z"}) {
+    cloud.add(axis, std::vector<float>{0, 0.1F, 0.2F, 0.3F});
+  }
+  dataset::write_ply(files.worst_frames(), cloud);
+  write_run_report(run.folder.path(), kTemplates);
+  const std::string page = files::read_text(files.report());
+  EXPECT_THAT(page, HasSubstr("Frame " + std::to_string(frame) +
+                              ": its scan and its matches, 1 on lines and 2 on planes"));
+  EXPECT_THAT(page, HasSubstr("Number 1 of the worst segments"));
+  EXPECT_THAT(page, HasSubstr("the map around it")) << "of a segment without a kept frame";
+  EXPECT_TRUE(std::filesystem::exists(files.images() / "worst-segment-2_dark.png"));
 }
 
 TEST(RunReport, NamesTheFileThatIsMissingOrDamaged) {

@@ -142,6 +142,7 @@ class CsvRecording {
     Reference reference;
     reference.file = statements_.find_file("csv.reference.file", csv_.reference.file);
     reference.description = "earth-centred poses in the tangent plane at the first one";
+    reference.north_map = Eigen::Vector3d::UnitY();
     const geodesy::LocalTangentPlane plane(geodesy::from_ecef(vector_of(poses.front())));
     for (const CsvRow& row : poses) {
       const Eigen::Quaterniond q(row.values[3], row.values[4], row.values[5], row.values[6]);

@@ -101,6 +101,7 @@ std::optional<Reference> oxts_reference(const OxtsStream& stream, const Pose3& T
   reference.T_map_body = mercator_trajectory(stream.packets)
                              .transformed_left(T_lidar_imu)
                              .transformed_right(T_lidar_imu.inverse());
+  reference.north_map = T_lidar_imu.rotation * north_imu(stream.packets.front());
   reference.file = folder;
   reference.description =
       "GNSS/INS on a Mercator map (the devkit's convertOxtsToPose), "

@@ -134,4 +134,10 @@ geometry::Trajectory mercator_trajectory(const std::vector<OxtsPacket>& packets)
   return T_map_imu;
 }
 
+Eigen::Vector3d north_imu(const OxtsPacket& packet) {
+  // A Mercator map keeps angles: its y axis points to true north everywhere.
+  const Pose3 T_mercator_imu = mercator_pose(packet, 1);
+  return T_mercator_imu.rotation.transpose() * Eigen::Vector3d::UnitY();
+}
+
 }  // namespace traverse::dataset

@@ -49,4 +49,7 @@ sensors::GnssFix gnss_fix(const OxtsPacket& packet, const std::string& label);
 /// devkit's convertOxtsToPose. Source: Geiger et al., KITTI raw data development kit.
 geometry::Trajectory mercator_trajectory(const std::vector<OxtsPacket>& packets);
 
+/// Unit vector to true north in the frame of the IMU at that packet.
+Eigen::Vector3d north_imu(const OxtsPacket& packet);
+
 }  // namespace traverse::dataset

@@ -151,7 +151,9 @@ class RawlogWriter : public RecordingWriter {
         output_(file),
         stream_(output_.temporary_path(), options.gzip_level),
         info_(info) {
-    if (reference) sidecar_.reference = reference->T_map_body;
+    if (!reference) return;
+    sidecar_.reference = reference->T_map_body;
+    sidecar_.north_map = reference->north_map;
   }
 
   void add(const sensors::Measurement& measurement) override {

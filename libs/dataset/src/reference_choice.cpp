@@ -1,5 +1,7 @@
 #include "reference_choice.hpp"
 
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -51,6 +53,7 @@ std::optional<ReferenceFile> stated_reference(const Statements& statements) {
   file.file = statements.find_file("reference.file", statements->reference_file);
   file.format = statements->reference_format;
   file.frame = statements->reference_frame;
+  if (statements.states("reference.north_deg")) file.north_deg = statements->reference_north_deg;
   file.reason = *statements.origin("reference.file");
   file.frame_reason = statements.reason("reference.frame", "default, not stated");
   return file;
@@ -70,6 +73,11 @@ Reference load_reference(const ReferenceFile& file, const ReferenceFrames& frame
                      "a calibration that tells where the camera is, for poses of the camera",
                      "none");
   }
+  std::optional<Eigen::Vector3d> north_map;
+  if (file.north_deg) {
+    const double north = *file.north_deg * std::numbers::pi / 180;
+    north_map = X->rotation * Eigen::Vector3d(std::cos(north), std::sin(north), 0);
+  }
   if (file.frame == ReferenceFrame::kBody) {
     description += "poses of the body as they stand";
   } else {
@@ -79,7 +87,7 @@ Reference load_reference(const ReferenceFile& file, const ReferenceFrames& frame
   }
   facts.push_back({"reference", file.file.string(), file.reason});
   facts.push_back({"reference frame", description, file.frame_reason});
-  return {std::move(poses), file.file, std::move(description)};
+  return {std::move(poses), file.file, std::move(description), north_map};
 }
 
 }  // namespace traverse::dataset

@@ -18,6 +18,7 @@ struct ReferenceFile {
   ReferenceFrame frame = ReferenceFrame::kBody;
   std::string reason;  ///< why this file: "traverse.yaml, line 4"
   std::string frame_reason;
+  std::optional<double> north_deg = {};  ///< true north in the file's map, from x towards y
 };
 
 /// Where the sensors are whose poses a reference may hold.

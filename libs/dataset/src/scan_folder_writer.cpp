@@ -39,6 +39,9 @@ class ScanFolderWriter : public RecordingWriter {
     if (reference) {
       sidecar_.reference = reference->T_map_body.transformed_left(T_lidar_body)
                                .transformed_right(lidar.T_body_sensor);
+      if (reference->north_map) {
+        sidecar_.north_map = T_lidar_body.rotation * *reference->north_map;
+      }
     }
     if (info.T_body_camera) {
       sidecar_.T_camera_lidar = info.T_body_camera->inverse() * lidar.T_body_sensor;

@@ -1,5 +1,7 @@
 #include "sidecar.hpp"
 
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "traverse/config/binder.hpp"
@@ -30,6 +32,8 @@ void write_sidecar(const Sidecar& sidecar, const SidecarFiles& files) {
   std::string reference_file = files.reference.filename().string();
   std::string reference_format = "tum";
   std::string reference_frame = "body";
+  const Eigen::Vector3d north = values.north_map.value_or(Eigen::Vector3d::UnitX());
+  double north_deg = std::atan2(north.y(), north.x()) * 180 / std::numbers::pi;
   std::string calibration = files.calibration.filename().string();
   const std::string yaml = config::to_yaml(
       [&](config::Binder& b) {
@@ -41,6 +45,9 @@ void write_sidecar(const Sidecar& sidecar, const SidecarFiles& files) {
             reference.text("file", reference_file, "");
             reference.text("format", reference_format, "");
             reference.text("frame", reference_frame, "");
+            if (values.north_map) {
+              reference.number("north_deg", north_deg, config::Range::between(-360, 360), "");
+            }
           });
         }
         if (values.T_camera_lidar) b.text("calibration", calibration, "");

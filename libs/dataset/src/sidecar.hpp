@@ -17,6 +17,7 @@ struct Sidecar {
   std::optional<sensors::LidarProfile> profile;   ///< of the data as they are in the copy
   std::optional<geometry::Trajectory> reference;  ///< T_map_body of the copy's body
   std::optional<geometry::Pose3> T_camera_lidar;
+  std::optional<Eigen::Vector3d> north_map;  ///< in the map of the reference
 };
 
 /// The names of the files, all in one folder.

@@ -43,6 +43,8 @@ void bind(Binder& b, StatedValues& v) {
     reference.text("file", v.reference_file, "relative to the recording's folder");
     reference.choice("format", v.reference_format, kTrajectoryFormatNames, "of the file");
     reference.choice("frame", v.reference_frame, kFrames, "whose poses the file holds");
+    reference.number("north_deg", v.reference_north_deg, Range::between(-360, 360),
+                     "true north in the file's map, from x towards y");
   });
   b.text("calibration", v.calibration, "file in KITTI's form with the camera's pose");
   b.text("body_frame", v.body_frame, "what reports call the body frame");

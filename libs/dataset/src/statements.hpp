@@ -29,6 +29,7 @@ struct StatedValues {
   std::string reference_file;
   TrajectoryFormat reference_format = TrajectoryFormat::kAuto;
   ReferenceFrame reference_frame = ReferenceFrame::kBody;
+  double reference_north_deg = 0;  ///< holds when it is stated
   std::string calibration;
   std::string body_frame;
   double period_s = 0.1;

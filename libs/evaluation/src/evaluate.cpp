@@ -1,5 +1,7 @@
 #include "traverse/evaluation/evaluate.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "traverse/evaluation/titles.hpp"
@@ -126,6 +128,21 @@ Evaluation evaluate(const Trajectory& estimate, const Trajectory& reference,
 Evaluation evaluate(const Trajectory& estimate) {
   require_finite(estimate, "estimate");
   return {facts_of(estimate), std::nullopt, std::nullopt};
+}
+
+const Ape* find_ape(const Comparison& comparison, Relation relation) {
+  const auto found = std::find_if(comparison.ape.begin(), comparison.ape.end(),
+                                  [&](const Ape& ape) { return ape.relation == relation; });
+  return found == comparison.ape.end() ? nullptr : &*found;
+}
+
+const Rpe* find_rpe(const Comparison& comparison, Relation relation, double frames) {
+  const auto found =
+      std::find_if(comparison.rpe.begin(), comparison.rpe.end(), [&](const Rpe& rpe) {
+        return rpe.relation == relation && rpe.options.delta.unit == DeltaUnit::kFrames &&
+               rpe.options.delta.value == frames;
+      });
+  return found == comparison.rpe.end() ? nullptr : &*found;
 }
 
 }  // namespace traverse::evaluation

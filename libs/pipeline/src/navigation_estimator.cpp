@@ -197,6 +197,11 @@ std::vector<Decision> NavigationEstimator::decisions() const {
   return decisions;
 }
 
+std::optional<Eigen::Vector3d> NavigationEstimator::north_map() const {
+  if (!navigation_.plane()) return std::nullopt;
+  return Eigen::Vector3d::UnitY();  // the map is east, north, up
+}
+
 std::vector<optimization::FactorUse> NavigationEstimator::factors() const {
   std::vector<optimization::FactorUse> uses{{"inertial rotation"},
                                             {"inertial velocity"},

@@ -26,6 +26,7 @@ class NavigationEstimator final : public Estimator {
                      bool with_classes) const override;
   std::string points_are() const override { return "none used"; }
   std::vector<Decision> decisions() const override;
+  std::optional<Eigen::Vector3d> north_map() const override;
   std::vector<optimization::FactorUse> factors() const override;
   std::unique_ptr<Estimator> clone() const override {
     return std::make_unique<NavigationEstimator>(*this);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <deque>
 #include <memory>
 #include <numeric>
 #include <stdexcept>
@@ -17,6 +16,7 @@
 #include "traverse/dataset/trajectory_files.hpp"
 #include "traverse/evaluation/evaluate.hpp"
 #include "traverse/evaluation/json.hpp"
+#include "traverse/evaluation/worst_segments.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/digest.hpp"
 #include "traverse/mapping/keyframe_map.hpp"
@@ -25,11 +25,12 @@
 #include "traverse/pipeline/factor_kinds.hpp"
 #include "traverse/pipeline/frame_table.hpp"
 
+#include "frame_recorder.hpp"
+#include "waiting_scans.hpp"
+
 namespace traverse::pipeline {
 
 namespace {
-
-using ScanPtr = std::shared_ptr<const sensors::LidarScan>;
 
 /// The consistency score holds the points of the scans it is given; of a long recording it takes
 /// every so manieth scan, to stay below this many.
@@ -49,16 +50,18 @@ std::vector<std::string> table_columns(const Estimator& estimator) {
 class Results {
  public:
   Results(const Estimator& estimator, const dataset::RecordingInfo& recording,
-          const RunOptions& options)
+          const RunOptions& options, const RunFolder& folder)
       : estimator_(estimator),
         first_frame_(options.first),
         score_every_(recording.expected_scans / kMostScoredScans + 1),
         frames_(table_columns(estimator)),
         scorer_(estimator.points_are()),
         map_(options.map_voxel_m, options.most_map_points),
-        keyframes_(mapping::KeyframeMapOptions{}) {}
+        keyframes_(mapping::KeyframeMapOptions{}),
+        recorder_(folder.path, estimator) {}
 
-  void add(const PoseFrame& frame, const ScanPtr& scan) {
+  /// \param latest the estimator has given none after it
+  void add(const PoseFrame& frame, const ScanPtr& scan, bool latest) {
     add_row(frame);
     trajectory_.push_back(frame.stamp, frame.T_map_body);
     if (scan == nullptr) return;
@@ -72,6 +75,7 @@ class Results {
     if ((frames_.rows().size() - 1) % score_every_ == 0) {
       scorer_.add(used.x, used.y, used.z, frame.T_map_body);
     }
+    if (latest) recorder_.add(frames_.rows().size() - 1, frame, used);
     if (sample) {
       sample_ = used;
       sample_frame_ = first_frame_ + frames_.rows().size() - 1;
@@ -85,6 +89,9 @@ class Results {
   const UsedScan& sample() const { return sample_; }
   std::size_t sample_frame() const { return sample_frame_; }
   std::optional<evaluation::Consistency> consistency() { return scorer_.score(); }
+  dataset::PointCloud worst_frames(const evaluation::WorstSegments& worst) {
+    return recorder_.worst_frames(worst, first_frame_);
+  }
 
  private:
   void add_row(const PoseFrame& frame) {
@@ -110,29 +117,9 @@ class Results {
   evaluation::ConsistencyScorer scorer_;
   mapping::VoxelMap map_;
   mapping::KeyframeMap keyframes_;
+  FrameRecorder recorder_;
   UsedScan sample_;
   std::size_t sample_frame_ = 0;
-};
-
-/// Keeps the scans that wait for their frame: an estimator may hold the first ones back.
-class WaitingScans {
- public:
-  void add(const sensors::Measurement& measurement) {
-    const auto* scan = std::get_if<ScanPtr>(&measurement);
-    if (scan != nullptr) scans_.push_back(*scan);
-  }
-
-  /// The scan stamped like the frame; earlier ones will not be asked for again.
-  ScanPtr take(geometry::Stamp stamp) {
-    while (!scans_.empty() && scans_.front()->stamp < stamp) scans_.pop_front();
-    if (scans_.empty() || scans_.front()->stamp != stamp) return nullptr;
-    ScanPtr scan = scans_.front();
-    scans_.pop_front();
-    return scan;
-  }
-
- private:
-  std::deque<ScanPtr> scans_;
 };
 
 /// Reads, estimates and collects. \returns whether the user stopped it.
@@ -142,7 +129,7 @@ bool estimate_all(dataset::Source& source, Estimator& estimator, const RunOption
   std::size_t done = 0;
   const auto collect = [&](const std::vector<PoseFrame>& frames) {
     for (const PoseFrame& frame : frames) {
-      results.add(frame, waiting.take(frame.stamp));
+      results.add(frame, waiting.take(frame.stamp), &frame == &frames.back());
       observer.frame(++done);
     }
   };
@@ -178,7 +165,8 @@ evaluation::EvaluationOptions evaluation_options(const dataset::RecordingInfo& r
   return options;
 }
 
-/// Accuracy against the reference if there is one, and the sharpness of the map in any case.
+/// Accuracy against the reference if there is one, and the sharpness of the map in any case; and
+/// how the worst frames were registered.
 void evaluate_run(const dataset::Source& source, Results& results, const RunFolder& folder,
                   RunRecord& record) {
   evaluation::Evaluation evaluation = evaluation::evaluate(results.trajectory());
@@ -190,8 +178,15 @@ void evaluate_run(const dataset::Source& source, Results& results, const RunFold
       record.evaluation_error = error.what();
     }
   }
+  if (!record.north_map && evaluation.comparison && source.reference()->north_map) {
+    record.north_map = evaluation.comparison->alignment.T_reference_estimate.rotation.transpose() *
+                       *source.reference()->north_map;
+  }
   evaluation.consistency = results.consistency();
   files::write_text(folder.evaluation(), evaluation::to_json(evaluation));
+  const dataset::PointCloud worst_frames = results.worst_frames(
+      evaluation::worst_segments(evaluation, results.frames().column("residual_rms_m")));
+  if (worst_frames.size() > 0) dataset::write_ply(folder.worst_frames(), worst_frames);
 }
 
 /// The Jacobians of the factors that the estimator solves with, checked in this very program.
@@ -265,9 +260,10 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
   };
   folder.prepare();
   try {
-    Results results(*pipeline.estimator, source.info(), options);
+    Results results(*pipeline.estimator, source.info(), options, folder);
     const bool stopped = estimate_all(source, *pipeline.estimator, options, observer, results);
     record.decisions = pipeline.estimator->decisions();  // some are made on the way
+    record.north_map = pipeline.estimator->north_map();
     record.frames_read = results.frames().rows().size() + source.skipped().total();
     if (results.frames().rows().empty()) {
       throw std::runtime_error(source.info().path.string() +

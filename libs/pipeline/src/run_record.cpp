@@ -61,7 +61,10 @@ Json to_json(const dataset::RecordingInfo& info) {
   }
   Json sensors = Json::array();
   for (const sensors::MountedSensor& sensor : info.rig.sensors) {
-    Json entry{{"label", sensor.label}, {"kind", sensors::name_of(sensor.kind)}};
+    const Eigen::Vector3d& p = sensor.T_body_sensor.translation;
+    Json entry{{"label", sensor.label},
+               {"kind", sensors::name_of(sensor.kind)},
+               {"p_body_m", {p.x(), p.y(), p.z()}}};
     if (sensor.lidar) entry["profile"] = sensor.lidar->name;
     sensors.push_back(std::move(entry));
   }
@@ -151,7 +154,11 @@ std::string to_json(const RunRecord& record, const BuildInfo& build, const HostI
   json["decisions"] = std::move(decisions);
   json["map"] = {{"points", record.map_points},
                  {"voxel_m", record.map_voxel_m},
-                 {"keyframes", record.keyframes}};
+                 {"keyframes", record.keyframes},
+                 {"north", nullptr}};
+  if (const auto& north = record.north_map) {
+    json["map"]["north"] = {north->x(), north->y(), north->z()};
+  }
   json["reference"] = nullptr;
   if (record.reference_file) {
     json["reference"] = {{"file", *record.reference_file},

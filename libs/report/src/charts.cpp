@@ -205,16 +205,16 @@ void add_health(const pipeline::FrameTable& frames, Json& charts) {
               charts);
 }
 
-/// The biases of an inertial estimator: every column "bias_..." as it is.
+/// The biases of an inertial estimator: columns "gyro_bias_x_rad_s", "accelerometer_bias_x_m_s2".
 void add_biases(const pipeline::FrameTable& frames, Json& charts) {
-  Chart chart("bias", "health", "Bias", "");
-  bool any = false;
-  for (const std::string& column : frames.columns()) {
-    if (!column.starts_with("bias_")) continue;
-    chart.series(column.substr(5), frames.column(column));
-    any = true;
-  }
-  if (any) charts.push_back(chart.take());
+  add_columns(frames, {"gyro-bias", "health", "Bias of the gyroscope", "rad/s"},
+              {{"x", "gyro_bias_x_rad_s"}, {"y", "gyro_bias_y_rad_s"}, {"z", "gyro_bias_z_rad_s"}},
+              false, 1, charts);
+  add_columns(frames, {"accelerometer-bias", "health", "Bias of the accelerometer", "m/s²"},
+              {{"x", "accelerometer_bias_x_m_s2"},
+               {"y", "accelerometer_bias_y_m_s2"},
+               {"z", "accelerometer_bias_z_m_s2"}},
+              false, 1, charts);
 }
 
 void add_timing(const pipeline::FrameTable& frames, Json& charts) {

@@ -87,19 +87,40 @@ std::pair<std::string, std::string> draw_overlay(const std::vector<ComparedRun>&
   return {std::move(light), draw()};
 }
 
-/// "APE improved; RPE over 10 frames regressed; 3 figures without change."
+/// How a run's figures differ from the baseline's.
+struct Changes {
+  std::string run;
+  std::vector<std::string> told;  ///< "APE improved"
+  std::size_t improved = 0;
+  std::size_t regressed = 0;
+};
+
+/// "b: APE improved; b: Time a frame regressed; 3 figures without a change that is sure."; of more
+/// than two runs only how many: "b: 1 improved, 2 regressed; c: nothing changed; ..."
 std::string sentence(const Json& differences) {
-  std::string text;
+  std::vector<Changes> runs;
   std::size_t unchanged = 0;
-  const auto& rows = differences.at("rows");
-  for (const Json& row : rows) {
+  for (const Json& row : differences.at("rows")) {
+    const auto name = row[0].get<std::string>();
     const auto verdict = row.back().get<std::string>();
-    if (verdict != "improved" && verdict != "regressed") {
+    if (runs.empty() || runs.back().run != name) runs.push_back({name, {}, 0, 0});
+    const bool improved = verdict == "improved";
+    if (!improved && verdict != "regressed") {
       ++unchanged;
       continue;
     }
-    text +=
-        fmt::format("{}: {} {}; ", row[0].get<std::string>(), row[1].get<std::string>(), verdict);
+    ++(improved ? runs.back().improved : runs.back().regressed);
+    runs.back().told.push_back(row[1].get<std::string>() + " " + verdict);
+  }
+  std::string text;
+  for (const Changes& run : runs) {
+    if (runs.size() > 1) {
+      text += run.told.empty() ? fmt::format("{}: nothing changed; ", run.run)
+                               : fmt::format("{}: {} improved, {} regressed; ", run.run,
+                                             run.improved, run.regressed);
+      continue;
+    }
+    for (const std::string& change : run.told) text += fmt::format("{}: {}; ", run.run, change);
   }
   return text + fmt::format("{} without a change that is sure.", plural(unchanged, "figure"));
 }

@@ -10,8 +10,10 @@ namespace traverse::report {
 /// the association, KITTI drift.
 void add_error_figures(const RunData& run, FigureMaker& maker);
 
-/// A close-up of the map with the way for each of the worst segments.
-void add_worst_segment_figures(const RunData& run, const WorstSegments& worst, FigureMaker& maker);
+/// For each of the worst segments how a frame of it was registered: scan, matches and residuals.
+/// Where the run kept none, a close-up of the map.
+void add_worst_segment_figures(const RunData& run, const evaluation::WorstSegments& worst,
+                               FigureMaker& maker);
 
 /// "APE rmse 0.066 m, SE(3) alignment, 108 pairs"; empty if it was not computed.
 std::string ape_statistic(const evaluation::Comparison& comparison);

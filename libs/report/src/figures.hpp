@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "run_data.hpp"
-#include "worst_segments.hpp"
 
 namespace traverse::report {
 
@@ -28,7 +27,8 @@ struct Figure {
 /// Draws every picture that the run has data for, `width` pixels wide, and writes them to
 /// images/NAME.png and images/NAME_dark.png; those without point clouds also to images/NAME.svg and
 /// images/NAME.pdf. \throws files::OutputError
-std::vector<Figure> draw_figures(const RunData& run, const WorstSegments& worst, int width,
+std::vector<Figure> draw_figures(const RunData& run, const evaluation::WorstSegments& worst,
+                                 int width,
                                  const std::function<void(const std::string&)>& picture_drawn);
 
 }  // namespace traverse::report

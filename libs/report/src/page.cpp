@@ -78,7 +78,8 @@ std::string make_page(Model& model, const std::string& packed_points,
   model.page.set("report_json", text_for_script(model.json));
   model.page.set("points", packed_points);
   return render_page(model.page, "run",
-                     {"three", "orbit_controls", "dygraphs", "moment", "charts", "scene", "tables"},
+                     {"three", "orbit_controls", "dygraphs", "moment", "charts", "scene_colours",
+                      "scene_points", "scene_way", "scene_measure", "scene", "tables"},
                      templates);
 }
 

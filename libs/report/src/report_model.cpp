@@ -8,7 +8,7 @@
 namespace traverse::report {
 
 ReportModel make_model(const RunData& run, const std::vector<RunFigure>& figures,
-                       const WorstSegments& worst, const BudgetResult* budget) {
+                       const evaluation::WorstSegments& worst, const BudgetResult* budget) {
   ReportModel report;
   Model& model = report.model;
   model.json["schema"] = "traverse/report/1";

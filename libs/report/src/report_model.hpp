@@ -6,7 +6,6 @@
 #include "model.hpp"
 #include "run_data.hpp"
 #include "run_figures.hpp"
-#include "worst_segments.hpp"
 
 namespace traverse::report {
 
@@ -20,6 +19,6 @@ struct ReportModel {
 
 /// \param budget null if none was given
 ReportModel make_model(const RunData& run, const std::vector<RunFigure>& figures,
-                       const WorstSegments& worst, const BudgetResult* budget);
+                       const evaluation::WorstSegments& worst, const BudgetResult* budget);
 
 }  // namespace traverse::report

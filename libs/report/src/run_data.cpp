@@ -63,6 +63,9 @@ RunData read_run(const std::filesystem::path& folder) {
   if (std::filesystem::exists(files.sample_scan())) {
     run.sample_scan = dataset::read_point_cloud(files.sample_scan());
   }
+  if (std::filesystem::exists(files.worst_frames())) {
+    run.worst_frames = dataset::read_point_cloud(files.worst_frames());
+  }
   run.jacobians =
       read_if_there(files.jacobians(), "a check of Jacobians", optimization::audit_from_json);
   run.factor_bench = read_if_there(files.factor_bench(), "a measurement of factors",

@@ -8,6 +8,7 @@
 
 #include "traverse/dataset/point_cloud_file.hpp"
 #include "traverse/evaluation/evaluate.hpp"
+#include "traverse/evaluation/worst_segments.hpp"
 #include "traverse/geometry/trajectory.hpp"
 #include "traverse/lidar/factor_bench.hpp"
 #include "traverse/optimization/jacobian_audit.hpp"
@@ -25,6 +26,7 @@ struct RunData {
   std::optional<geometry::Trajectory> reference;
   dataset::PointCloud map;  ///< empty for a run without lidar
   std::optional<dataset::PointCloud> sample_scan;
+  std::optional<dataset::PointCloud> worst_frames;
   std::optional<optimization::JacobianAudit> jacobians;
   std::optional<lidar::FactorBench> factor_bench;
 

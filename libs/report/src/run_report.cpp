@@ -21,7 +21,8 @@ std::optional<BudgetResult> write_run_report(const std::filesystem::path& run_fo
   std::optional<BudgetResult> budget;
   if (options.budget) budget = check_figures(*options.budget, figures);
 
-  const WorstSegments worst = worst_segments(run);
+  const evaluation::WorstSegments worst =
+      evaluation::worst_segments(run.evaluation, run.frames.column("residual_rms_m"));
   std::vector<Figure> pictures;
   if (options.pictures)
     pictures = draw_figures(run, worst, options.picture_width, options.picture_drawn);

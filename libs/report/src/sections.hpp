@@ -15,6 +15,7 @@ void add_verdict(const RunData& run, const std::vector<RunFigure>& figures, Mode
 /// \param budget null if none was given
 void add_headlines(const std::vector<RunFigure>& figures, const BudgetResult* budget, Model& model);
 void add_accuracy(const RunData& run, Model& model);
+void add_worst_segments(const RunData& run, const evaluation::WorstSegments& worst, Model& model);
 void add_health(const RunData& run, Model& model);
 void add_timing(const RunData& run, Model& model);
 /// Nothing where the run folder has no factors.

@@ -5,25 +5,6 @@
 
 namespace traverse::report {
 
-using evaluation::Comparison;
-using evaluation::Relation;
-
-const evaluation::Ape* find_ape(const Comparison& comparison, Relation relation) {
-  const auto found = std::find_if(comparison.ape.begin(), comparison.ape.end(),
-                                  [&](const auto& ape) { return ape.relation == relation; });
-  return found == comparison.ape.end() ? nullptr : &*found;
-}
-
-const evaluation::Rpe* find_rpe(const Comparison& comparison, Relation relation, double frames) {
-  const auto found =
-      std::find_if(comparison.rpe.begin(), comparison.rpe.end(), [&](const auto& rpe) {
-        return rpe.relation == relation &&
-               rpe.options.delta.unit == evaluation::DeltaUnit::kFrames &&
-               rpe.options.delta.value == frames;
-      });
-  return found == comparison.rpe.end() ? nullptr : &*found;
-}
-
 std::vector<double> seconds_from_start(const RunData& run) {
   std::vector<double> seconds;
   for (const auto stamp : run.estimate.stamps()) {
@@ -52,6 +33,18 @@ geometry::Trajectory aligned_estimate(const RunData& run) {
   std::vector<geometry::Pose3> poses =
       evaluation::aligned(run.estimate.poses(), run.evaluation.comparison->alignment);
   return geometry::Trajectory::stamped(run.estimate.stamps(), std::move(poses));
+}
+
+std::optional<Eigen::Vector3d> north_of_map(const RunData& run) {
+  const auto north = run.record.at("map").find("north");
+  if (north == run.record.at("map").end() || north->is_null()) return std::nullopt;
+  return Eigen::Vector3d(north->at(0), north->at(1), north->at(2));
+}
+
+std::optional<Eigen::Vector3d> north_of_reference(const RunData& run) {
+  const auto north = north_of_map(run);
+  if (!north || !run.evaluation.comparison) return north;
+  return run.evaluation.comparison->alignment.T_reference_estimate.rotation * *north;
 }
 
 Registration registration_of(const pipeline::FrameTable& frames) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "traverse/evaluation/evaluate.hpp"
@@ -9,13 +10,6 @@
 
 /// Series of a run that several parts of its report need.
 namespace traverse::report {
-
-/// The errors of that relation, or null if they were not computed.
-const evaluation::Ape* find_ape(const evaluation::Comparison& comparison,
-                                evaluation::Relation relation);
-/// Those over so many frames, or null.
-const evaluation::Rpe* find_rpe(const evaluation::Comparison& comparison,
-                                evaluation::Relation relation, double frames);
 
 /// Seconds from the first pose of the estimate to each.
 std::vector<double> seconds_from_start(const RunData& run);
@@ -26,6 +20,11 @@ std::vector<double> for_each_pose(const RunData& run, const std::vector<double>&
 
 /// The estimate brought onto the reference as the evaluation did, to be drawn over it.
 geometry::Trajectory aligned_estimate(const RunData& run);
+
+/// Unit vector to true north in the map frame of the estimate; nothing where it is not known.
+std::optional<Eigen::Vector3d> north_of_map(const RunData& run);
+/// The same in the frame of aligned_estimate().
+std::optional<Eigen::Vector3d> north_of_reference(const RunData& run);
 
 /// How the registration of the frames went.
 struct Registration {

@@ -9,6 +9,7 @@
 #include "traverse/render/palette.hpp"
 #include "traverse/render/plot/colour_bar.hpp"
 #include "traverse/render/plot/legend.hpp"
+#include "traverse/render/plot/north_arrow.hpp"
 #include "traverse/render/plot/number_text.hpp"
 #include "traverse/render/plot/occupancy.hpp"
 #include "traverse/render/plot/path.hpp"
@@ -103,7 +104,7 @@ Occupancy occupancy_of(const PointCloud& cloud, const Style& style) {
 
 Drawing map_from_above(const MapPoints& points, const PointValues& values,
                        const geometry::Trajectory* trajectory, const Caption& caption,
-                       const Style& style) {
+                       const Style& style, const std::optional<Eigen::Vector3d>& north) {
   check_sizes(points, values);
   Canvas canvas(style);
   const Sizes& sizes = canvas.sizes();
@@ -137,6 +138,7 @@ Drawing map_from_above(const MapPoints& points, const PointValues& values,
   canvas.add(std::move(cloud), area.rect);
   draw_trajectory(canvas, area, path, line_colour);
   draw_scale_bar(canvas, area, occupancy);
+  if (north) draw_north_arrow(canvas, area, *north, occupancy);
   return std::move(canvas).finish();
 }
 

@@ -5,6 +5,7 @@
 
 #include "traverse/render/palette.hpp"
 #include "traverse/render/plot/legend.hpp"
+#include "traverse/render/plot/north_arrow.hpp"
 #include "traverse/render/plot/number_text.hpp"
 #include "traverse/render/plot/occupancy.hpp"
 #include "traverse/render/plot/path.hpp"
@@ -39,7 +40,7 @@ std::vector<LegendEntry> legend_of(std::span<const NamedTrajectory> estimates,
 
 Drawing trajectory_from_above(std::span<const NamedTrajectory> estimates,
                               const geometry::Trajectory* reference, const Caption& caption,
-                              const Style& style) {
+                              const Style& style, const std::optional<Eigen::Vector3d>& north) {
   Canvas canvas(style);
   std::vector<Path> paths;
   for (const NamedTrajectory& estimate : estimates) paths.push_back(path_of(*estimate.trajectory));
@@ -64,6 +65,7 @@ Drawing trajectory_from_above(std::span<const NamedTrajectory> estimates,
     draw_path_marks(canvas, seen_from_above(paths[i], area), paths[i], palette::series(i));
   }
   draw_scale_bar(canvas, area, occupancy);
+  if (north) draw_north_arrow(canvas, area, *north, occupancy);
   return std::move(canvas).finish();
 }
 

@@ -53,6 +53,7 @@ void draw_scale_bar(Canvas& canvas, const PlotArea& area, const Occupancy& occup
   const Text text =
       canvas.note(label, {room.centre().x, y - 1.2 * sizes.gap}, HorizontalAlign::kCentre);
   canvas.text(canvas.on_data(coloured(text, canvas.theme().text)));
+  canvas.reserve(room);
 }
 
 }  // namespace traverse::render

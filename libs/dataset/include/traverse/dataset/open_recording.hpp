@@ -25,6 +25,7 @@ namespace traverse::dataset {
 ///       file: poses_velo.txt        relative to the recording's folder
 ///       format: kitti               auto | tum | kitti | euroc
 ///       frame: lidar                body | lidar | camera
+///       north_deg: 90               true north in the file's map, from x towards y; if known
 ///     calibration: calib.txt        in KITTI's form: Tr, or Tr_velo_to_cam with R0_rect
 ///     body_frame: lidar             what reports call the body
 ///     period_s: 0.1                 for folders without stamps

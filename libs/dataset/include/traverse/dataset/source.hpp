@@ -61,6 +61,8 @@ struct Reference {
   geometry::Trajectory T_map_body;  ///< in the rig's body frame, stamped
   std::filesystem::path file;
   std::string description;  ///< how it was brought to the body frame
+  /// Unit vector to true north in the map frame, when the reference is tied to the earth.
+  std::optional<Eigen::Vector3d> north_map = std::nullopt;
 };
 
 /// A place in a recording to come back to; each source knows its own kind.

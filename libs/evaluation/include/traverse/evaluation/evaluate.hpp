@@ -63,6 +63,11 @@ struct Comparison {
   std::vector<Undefined> undefined;
 };
 
+/// The errors of that relation, or null if they were not computed.
+const Ape* find_ape(const Comparison& comparison, Relation relation);
+/// Those over so many frames, or null.
+const Rpe* find_rpe(const Comparison& comparison, Relation relation, double frames);
+
 /// Everything that is known about the accuracy of a trajectory.
 struct Evaluation {
   TrajectoryFacts estimate;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,9 @@ class Estimator {
   virtual std::string points_are() const = 0;
 
   virtual std::vector<Decision> decisions() const = 0;
+
+  /// Unit vector to true north in the map frame, where the estimator ties the map to the earth.
+  virtual std::optional<Eigen::Vector3d> north_map() const { return std::nullopt; }
 
   /// The factors that it solves with, if it does; a run checks their Jacobians.
   virtual std::vector<optimization::FactorUse> factors() const { return {}; }

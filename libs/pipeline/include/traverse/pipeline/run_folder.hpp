@@ -17,6 +17,8 @@ struct RunFolder {
   std::filesystem::path simple_map() const { return path / "map.simplemap"; }
   /// One scan of the run with the feature class of each point.
   std::filesystem::path sample_scan() const { return path / "scan.ply"; }
+  /// How a frame of each worst segment was registered: its scan and its matches.
+  std::filesystem::path worst_frames() const { return path / "worst_frames.ply"; }
   std::filesystem::path evaluation() const { return path / "evaluation.json"; }
   /// The check of the Jacobians of the factors that the run used.
   std::filesystem::path jacobians() const { return path / "jacobians.json"; }

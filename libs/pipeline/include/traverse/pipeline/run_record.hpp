@@ -58,6 +58,7 @@ struct RunRecord {
 
   std::size_t map_points = 0;
   double map_voxel_m = 0;
+  std::optional<Eigen::Vector3d> north_map;  ///< unit vector to true north, where it is known
   std::size_t keyframes = 0;
 
   std::string evaluation_error;  ///< why there is no comparison although there is a reference

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -29,10 +30,11 @@ struct PointValues {
 
 /// A map from above, true to scale, with the trajectory in it; what is higher covers what is lower,
 /// and edges are shaded. A few stray points far away do not shrink the rest: the picture holds the
-/// trajectory and 99 % of the points. `trajectory` (T_map_body) may be null.
+/// trajectory and 99 % of the points. `trajectory` (T_map_body) may be null. An arrow points to
+/// north, given in the map frame, if it is known.
 /// \throws std::invalid_argument if the arrays do not agree in size.
 Drawing map_from_above(const MapPoints& points, const PointValues& values,
                        const geometry::Trajectory* trajectory, const Caption& caption,
-                       const Style& style);
+                       const Style& style, const std::optional<Eigen::Vector3d>& north = {});
 
 }  // namespace traverse::render

@@ -1,0 +1,153 @@
+#include "frame_recorder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace traverse::pipeline {
+
+namespace {
+
+constexpr std::size_t kFramesTogether = 5;  // a worst segment of ten frames holds five in a row
+constexpr std::size_t kMostScanPoints = 6000;
+constexpr std::size_t kMostMatches = 2500;
+constexpr std::size_t kValuesOfPoint = 3;
+constexpr std::size_t kValuesOfMatch = 8;  // position, offset, residual, kind
+
+/// What worst_frames.ply says of a point.
+enum class Kind : std::uint8_t { kScan, kOnLine, kOnPlane };
+
+/// Calls `use` with at most `most` of the numbers 0 to `count` - 1, evenly spread.
+template <typename Use>
+void for_each_spread(std::size_t count, std::size_t most, const Use& use) {
+  const std::size_t kept = std::min(count, most);
+  for (std::size_t k = 0; k < kept; ++k) use(k * count / kept);
+}
+
+void append(const Eigen::Vector3d& v, std::vector<float>& values) {
+  for (int axis = 0; axis < 3; ++axis) values.push_back(static_cast<float>(v[axis]));
+}
+
+/// The columns of worst_frames.ply.
+class Columns {
+ public:
+  void add_scan_point(std::size_t frame, const float* p) {
+    add(frame, Kind::kScan, p, kNone.data(), 0);
+  }
+  void add_match(std::size_t frame, const float* row) {
+    add(frame, row[7] != 0 ? Kind::kOnLine : Kind::kOnPlane, row, row + 3, row[6]);
+  }
+
+  dataset::PointCloud take() {
+    dataset::PointCloud cloud;
+    cloud.add("frame", std::move(frame_));
+    for (std::size_t axis = 0; axis < 3; ++axis) cloud.add(kAxes[axis], std::move(position_[axis]));
+    cloud.add("kind", std::move(kind_));
+    cloud.add("residual_m", std::move(residual_m_));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      cloud.add(std::string("offset_") + kAxes[axis], std::move(offset_[axis]));
+    }
+    return cloud;
+  }
+
+ private:
+  static constexpr std::array<float, 3> kNone{};
+  static constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+
+  void add(std::size_t frame, Kind kind, const float* p, const float* offset, float residual_m) {
+    frame_.push_back(static_cast<std::uint32_t>(frame));
+    kind_.push_back(static_cast<std::uint8_t>(kind));
+    residual_m_.push_back(residual_m);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      position_[axis].push_back(p[axis]);
+      offset_[axis].push_back(offset[axis]);
+    }
+  }
+
+  std::vector<std::uint32_t> frame_;
+  std::vector<std::uint8_t> kind_;
+  std::array<std::vector<float>, 3> position_;
+  std::array<std::vector<float>, 3> offset_;
+  std::vector<float> residual_m_;
+};
+
+}  // namespace
+
+FrameRecorder::FrameRecorder(const std::filesystem::path& folder, const Estimator& estimator)
+    : estimator_(estimator), scratch_(folder) {
+  const auto& columns = estimator.columns();
+  const auto found = std::find(columns.begin(), columns.end(), "residual_rms_m");
+  if (found != columns.end()) {
+    residual_column_ = static_cast<std::size_t>(found - columns.begin());
+  }
+}
+
+void FrameRecorder::add(std::size_t pose, const PoseFrame& frame, const UsedScan& used) {
+  if (!residual_column_) return;
+  if (pending_ && pose / kFramesTogether != pending_->pose / kFramesTogether) keep_pending();
+  const double residual_rms_m = frame.record[*residual_column_];
+  if (pending_ && residual_rms_m <= pending_->residual_rms_m) return;
+
+  pending_values_.clear();
+  for_each_spread(used.x.size(), kMostScanPoints, [&](std::size_t i) {
+    const Eigen::Vector3d p_body(used.x[i], used.y[i], used.z[i]);
+    append(frame.T_map_body * p_body, pending_values_);
+  });
+  const std::size_t scan_points = pending_values_.size() / kValuesOfPoint;
+  const std::vector<MatchedPoint> matches = estimator_.matches();
+  for_each_spread(matches.size(), kMostMatches, [&](std::size_t i) {
+    const MatchedPoint& match = matches[i];
+    append(match.p_map, pending_values_);
+    append(match.p_map - match.foot_map, pending_values_);
+    pending_values_.push_back(static_cast<float>(match.residual_m));
+    pending_values_.push_back(match.on_line ? 1 : 0);
+  });
+  pending_ = {pose, residual_rms_m, scan_points, std::min(matches.size(), kMostMatches), 0};
+}
+
+void FrameRecorder::keep_pending() {
+  if (!pending_) return;
+  pending_->offset = scratch_.append(std::as_bytes(std::span(pending_values_)));
+  entries_.push_back(*pending_);
+  pending_.reset();
+}
+
+const FrameRecorder::Entry* FrameRecorder::worst_in(const evaluation::WorstSegment& segment) const {
+  const Entry* worst = nullptr;
+  for (const Entry& entry : entries_) {
+    // The errors of a motion are made after its first frame.
+    if (entry.pose <= segment.first || entry.pose > segment.last) continue;
+    if (worst == nullptr || entry.residual_rms_m > worst->residual_rms_m) worst = &entry;
+  }
+  return worst;
+}
+
+std::vector<float> FrameRecorder::values_of(const Entry& entry) const {
+  std::vector<float> values(kValuesOfPoint * entry.scan_points + kValuesOfMatch * entry.matches);
+  scratch_.read(entry.offset, std::as_writable_bytes(std::span(values)));
+  return values;
+}
+
+dataset::PointCloud FrameRecorder::worst_frames(const evaluation::WorstSegments& worst,
+                                                std::size_t first_frame) {
+  keep_pending();
+  Columns columns;
+  for (const evaluation::WorstSegment& segment : worst.segments) {
+    const Entry* entry = worst_in(segment);
+    if (entry == nullptr) continue;
+    const std::vector<float> values = values_of(*entry);
+    const std::size_t frame = first_frame + entry->pose;
+    const float* at = values.data();
+    for (std::size_t k = 0; k < entry->scan_points; ++k, at += kValuesOfPoint) {
+      columns.add_scan_point(frame, at);
+    }
+    for (std::size_t k = 0; k < entry->matches; ++k, at += kValuesOfMatch) {
+      columns.add_match(frame, at);
+    }
+  }
+  return columns.take();
+}
+
+}  // namespace traverse::pipeline
