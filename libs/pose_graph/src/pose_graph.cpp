@@ -50,7 +50,7 @@ void PoseGraph::add_node(NodeId id, const geometry::Pose3& T_map_body_guess) {
   ids_.push_back(id);
   guesses_.push_back(T_map_body_guess);
   poses_.push_back(T_map_body_guess);
-  if (ids_.size() > 1) place(ids_.size() - 1, ids_.size() - 2);
+  if (solved_nodes_ > 0) place(ids_.size() - 1, ids_.size() - 2);
 }
 
 void PoseGraph::place(std::size_t node, std::size_t beside) {
@@ -71,7 +71,8 @@ void PoseGraph::add_between(NodeId i, NodeId j, const geometry::Pose3& T_i_j,
   edge.T_i_j = T_i_j;
   edge.covariance = covariance;
   edges_.push_back(edge);
-  if (kind == EdgeKind::kOdometry && to >= solved_nodes_ && from < to) place(to, from);
+  const bool is_solved = to < solved_nodes_ || solved_nodes_ == 0;
+  if (kind == EdgeKind::kOdometry && !is_solved && from < to) place(to, from);
 }
 
 void PoseGraph::add_gnss(NodeId i, const Eigen::Vector3d& antenna_enu,
@@ -95,33 +96,46 @@ void PoseGraph::add_gravity(NodeId i, const Eigen::Vector3d& up_body, double sig
   levels_.push_back({i, up_body.normalized(), sigma_rad});
 }
 
-Result PoseGraph::optimise() {
+Result PoseGraph::optimise(Start start) {
   Result result;
   if (ids_.empty()) {
     result.converged = true;
     result.message = "there is no node";
     return result;
   }
+  if (start == Start::kGuesses) forget_solution();
   if (!is_georeferenced_) {
     find_up();
     georeference();
   }
-  result =
-      solve({edges_, fixes_, levels_, index_of_, is_georeferenced_}, options_, poses_, up_map_);
+  const GraphParts parts{edges_,        fixes_,       levels_, index_of_, is_georeferenced_,
+                         judged_edges_, judged_fixes_};
+  const double initial_cost = evaluate();
+  result = solve(parts, options_, poses_, up_map_);
+  result.initial_cost = initial_cost;
+  result.final_cost = evaluate();
   solved_nodes_ = ids_.size();
-  evaluate();
+  judged_edges_ = edges_.size();
+  judged_fixes_ = is_georeferenced_ ? fixes_.size() : 0;
 
-  for (const Edge& edge : edges_) {
-    if (edge.kind != EdgeKind::kLoop) continue;
-    ++result.loops;
-    if (edge.is_rejected()) ++result.rejected_loops;
-  }
+  const auto is_rejected = [](const auto& measured) { return measured.is_rejected(); };
+  const auto count = [](const auto& list, const auto& condition) {
+    return static_cast<std::size_t>(std::count_if(list.begin(), list.end(), condition));
+  };
+  result.loops = count(edges_, [](const Edge& edge) { return edge.kind == EdgeKind::kLoop; });
+  result.rejected_loops = count(edges_, is_rejected);
   result.fixes = fixes_.size();
-  for (const Fix& fix : fixes_) {
-    if (fix.is_rejected()) ++result.rejected_fixes;
-  }
+  result.rejected_fixes = is_georeferenced_ ? count(fixes_, is_rejected) : 0;
   result.is_georeferenced = is_georeferenced_;
   return result;
+}
+
+void PoseGraph::forget_solution() {
+  poses_ = guesses_;
+  solved_nodes_ = 0;
+  judged_edges_ = 0;
+  judged_fixes_ = 0;
+  is_georeferenced_ = false;
 }
 
 void PoseGraph::find_up() {
@@ -152,25 +166,30 @@ void PoseGraph::georeference() {
   is_georeferenced_ = true;
 }
 
-void PoseGraph::evaluate() {
+double PoseGraph::evaluate() {
   const double loop_bound = chi2_bound(6, options_.outlier_probability);
   const double fix_bound = chi2_bound(3, options_.outlier_probability);
+  double sum = 0;
   for (Edge& edge : edges_) {
     edge.residual = between_residual(edge.T_i_j, pose(edge.i), pose(edge.j));
     edge.chi2 = chi2_of(edge.residual, edge.covariance);
-    const bool is_robust = options_.robust && edge.kind == EdgeKind::kLoop;
-    edge.weight = is_robust ? scaling_weight(edge.chi2, loop_bound) : 1;
+    const bool is_doubtful = options_.robust && edge.kind == EdgeKind::kLoop;
+    edge.weight = is_doubtful ? scaling_weight(edge.chi2, loop_bound) : 1;
+    sum += is_doubtful ? scaled_cost(edge.chi2, loop_bound) : edge.chi2;
   }
   for (Fix& fix : fixes_) {
     if (!is_georeferenced_) break;
     fix.residual = antenna_residual(fix.antenna_enu, fix.antenna_body, pose(fix.node));
     fix.chi2 = chi2_of(fix.residual, fix.covariance);
     fix.weight = options_.robust ? scaling_weight(fix.chi2, fix_bound) : 1;
+    sum += options_.robust ? scaled_cost(fix.chi2, fix_bound) : fix.chi2;
   }
   for (Level& level : levels_) {
-    const Eigen::Vector3d up_body = pose(level.node).rotation.transpose() * up_map_;
-    level.angle_rad = std::atan2(up_body.cross(level.up_body).norm(), up_body.dot(level.up_body));
+    const Residual<3> r = gravity_residual(level.up_body, pose(level.node), up_map_);
+    level.angle_rad = 2 * std::asin(std::min(1.0, r.norm() / 2));  // of its chord
+    sum += r.squaredNorm() / (level.sigma_rad * level.sigma_rad);
   }
+  return sum / 2;
 }
 
 std::map<NodeId, geometry::Pose3> PoseGraph::poses() const {

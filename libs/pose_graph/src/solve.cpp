@@ -1,8 +1,11 @@
 #include "solve.hpp"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <deque>
+#include <numeric>
+#include <utility>
 
 #include <ceres/problem.h>
 #include <ceres/solver.h>
@@ -31,8 +34,25 @@ ceres::Problem::Options problem_options() {
   options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.enable_fast_removal = true;
   return options;
 }
+
+/// A constraint that may be false. Far beyond the bound it is left out of the problem, because a
+/// link between distant places makes the equations dense even when it weighs nothing.
+struct DoubtfulFactor {
+  ceres::CostFunction* cost;
+  ScalingLoss* loss;
+  std::vector<double*> parameters;
+  bool was_rejected = false;
+  ceres::ResidualBlockId block = nullptr;  ///< in the problem, or null
+
+  double chi2() const {
+    std::array<double, 6> r{};
+    cost->Evaluate(parameters.data(), r.data(), nullptr);
+    return std::inner_product(r.begin(), r.end(), r.begin(), 0.0);
+  }
+};
 
 class GraphProblem {
  public:
@@ -45,49 +65,62 @@ class GraphProblem {
         loop_loss_(chi2_bound(6, options.outlier_probability)),
         fix_loss_(chi2_bound(3, options.outlier_probability)),
         problem_(problem_options()) {
-    for (const Edge& edge : graph.edges) add(edge);
-    if (graph.is_georeferenced) {
-      for (const Fix& fix : graph.fixes) add(fix);
+    for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+      const Edge& edge = graph.edges[e];
+      add(edge, e < graph.judged_edges && edge.is_rejected());
+    }
+    for (std::size_t f = 0; f < graph.fixes.size() && graph.is_georeferenced; ++f) {
+      const Fix& fix = graph.fixes[f];
+      add(fix, f < graph.judged_fixes && fix.is_rejected());
     }
     for (const Level& level : graph.levels) add(level);
     hold_gauge();
   }
 
-  /// The robust bound in units of the final one at which every loop and fix has its full weight.
+  /// The bound in units of the final one at which every new loop and fix has its full weight.
   double first_widening() const {
     double widening = 1;
-    const auto consider = [&](const std::vector<ceres::ResidualBlockId>& blocks,
-                              const ScalingLoss& loss) {
-      for (const ceres::ResidualBlockId block : blocks) {
-        double half_chi2 = 0;
-        problem_.EvaluateResidualBlockAssumingParametersUnchanged(block, false, &half_chi2, nullptr,
-                                                                  nullptr);
-        widening = std::max(widening, 2 * half_chi2 / loss.final_bound());
-      }
-    };
-    consider(loop_blocks_, loop_loss_);
-    consider(fix_blocks_, fix_loss_);
+    for (const DoubtfulFactor& factor : doubtful_) {
+      if (factor.was_rejected) continue;
+      widening = std::max(widening, factor.chi2() / factor.loss->final_bound());
+    }
     return widening;
-  }
-
-  double cost() {
-    double cost = 0;
-    problem_.Evaluate({}, &cost, nullptr, nullptr, nullptr);
-    return cost;
   }
 
   ceres::Solver::Summary stage(double widening, int iterations) {
     loop_loss_.widen(widening);
     fix_loss_.widen(widening);
+    take_in_or_leave_out();
     ceres::Solver::Options solver;
     solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
     solver.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
     solver.max_num_iterations = iterations;
+    // A long chain bends far at little cost: damping would hide that from the first steps.
+    solver.initial_trust_region_radius = 1e12;
+    solver.function_tolerance = 1e-8;
     solver.num_threads = 1;  // a fixed order of summation: the same bits on every machine load
     solver.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(solver, &problem_, &summary);
     return summary;
+  }
+
+  /// By the present poses and bound; whether that changed anything.
+  bool take_in_or_leave_out() {
+    constexpr double kLeast = 1e-6;  // weight: a thousandth of a standard deviation's pull
+    bool is_changed = false;
+    for (DoubtfulFactor& factor : doubtful_) {
+      const bool counts = scaling_weight(factor.chi2(), factor.loss->bound()) > kLeast;
+      if (counts == (factor.block != nullptr)) continue;
+      is_changed = true;
+      if (counts) {
+        factor.block = problem_.AddResidualBlock(factor.cost, factor.loss, factor.parameters);
+      } else {
+        problem_.RemoveResidualBlock(factor.block);
+        factor.block = nullptr;
+      }
+    }
+    return is_changed;
   }
 
   void take_solution(std::vector<geometry::Pose3>& poses, Eigen::Vector3d& up_map) const {
@@ -104,26 +137,24 @@ class GraphProblem {
     problem_.AddParameterBlock(pose.translation(), 3);
   }
 
-  void add(const Edge& edge) {
+  void add(const Edge& edge, bool was_rejected) {
     PoseBlocks& i = at(edge.i);
     PoseBlocks& j = at(edge.j);
     add(i);
     add(j);
     between_.emplace_back(edge.T_i_j, square_root_information<6>(edge.covariance));
-    const bool is_loop = edge.kind == EdgeKind::kLoop;
-    const auto block = problem_.AddResidualBlock(
-        &between_.back(), is_loop && options_.robust ? &loop_loss_ : nullptr, i.rotation(),
-        i.translation(), j.rotation(), j.translation());
-    if (is_loop) loop_blocks_.push_back(block);
+    const bool is_doubtful = options_.robust && edge.kind == EdgeKind::kLoop;
+    add(&between_.back(), is_doubtful ? &loop_loss_ : nullptr,
+        {i.rotation(), i.translation(), j.rotation(), j.translation()}, was_rejected);
   }
 
-  void add(const Fix& fix) {
+  void add(const Fix& fix, bool was_rejected) {
     PoseBlocks& x = at(fix.node);
     add(x);
     antennas_.emplace_back(fix.antenna_enu, fix.antenna_body,
                            square_root_information<3>(fix.covariance));
-    fix_blocks_.push_back(problem_.AddResidualBlock(
-        &antennas_.back(), options_.robust ? &fix_loss_ : nullptr, x.rotation(), x.translation()));
+    add(&antennas_.back(), options_.robust ? &fix_loss_ : nullptr, {x.rotation(), x.translation()},
+        was_rejected);
   }
 
   void add(const Level& level) {
@@ -131,7 +162,16 @@ class GraphProblem {
     add(x);
     problem_.AddParameterBlock(up_map_.data(), 3, &direction_manifold_);
     ups_.emplace_back(level.up_body, level.sigma_rad);
-    problem_.AddResidualBlock(&ups_.back(), nullptr, x.rotation(), up_map_.data());
+    add(&ups_.back(), nullptr, {x.rotation(), up_map_.data()}, false);
+  }
+
+  void add(ceres::CostFunction* cost, ScalingLoss* loss, std::vector<double*> parameters,
+           bool was_rejected) {
+    if (loss == nullptr) {
+      problem_.AddResidualBlock(cost, nullptr, parameters);
+    } else {
+      doubtful_.push_back({cost, loss, std::move(parameters), was_rejected});
+    }
   }
 
   /// What no measurement tells is held: the first pose, or up in ENU.
@@ -153,12 +193,11 @@ class GraphProblem {
   std::deque<BetweenCost> between_;
   std::deque<AntennaCost> antennas_;
   std::deque<GravityCost> ups_;
+  std::vector<DoubtfulFactor> doubtful_;
   ScalingLoss loop_loss_;
   ScalingLoss fix_loss_;
   optimization::RotationManifold rotation_manifold_;
   ceres::SphereManifold<3> direction_manifold_;
-  std::vector<ceres::ResidualBlockId> loop_blocks_;
-  std::vector<ceres::ResidualBlockId> fix_blocks_;
   ceres::Problem problem_;
 };
 
@@ -173,7 +212,6 @@ Result solve(const GraphParts& graph, const GraphOptions& options,
              std::vector<geometry::Pose3>& poses, Eigen::Vector3d& up_map) {
   GraphProblem problem(graph, options, poses, up_map);
   Result result;
-  result.initial_cost = problem.cost();
   const auto count = [&](const ceres::Solver::Summary& summary) {
     ++result.stages;
     result.iterations += static_cast<int>(summary.iterations.size()) - 1;
@@ -183,9 +221,11 @@ Result solve(const GraphParts& graph, const GraphOptions& options,
       count(problem.stage(widening, options.steps_a_stage));
     }
   }
-  const ceres::Solver::Summary summary = problem.stage(1, options.most_iterations);
-  count(summary);
-  result.final_cost = summary.final_cost;
+  ceres::Solver::Summary summary;
+  do {
+    summary = problem.stage(1, options.most_iterations);
+    count(summary);
+  } while (problem.take_in_or_leave_out() && result.iterations < 4 * options.most_iterations);
   result.converged = summary.termination_type == ceres::CONVERGENCE;
   result.message = summary.message;
   problem.take_solution(poses, up_map);

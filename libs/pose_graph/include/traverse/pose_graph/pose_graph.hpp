@@ -17,6 +17,9 @@ namespace traverse::pose_graph {
 
 using NodeId = std::size_t;
 
+/// What an optimisation goes out from.
+enum class Start { kLastSolution, kGuesses };
+
 /// Where a constraint between two poses comes from. Odometry is believed; loops may be false.
 enum class EdgeKind { kOdometry, kLoop };
 
@@ -90,7 +93,8 @@ struct Result {
 /// non-convexity (Yang et al., RA-L 2020), each stage going on from the solution before.
 ///
 /// Incremental: optimise() starts from the last solution; nodes added since are placed by their
-/// guesses relative to the node that odometry links them to.
+/// guesses relative to the node that odometry links them to, and only loops added since widen the
+/// bound.
 class PoseGraph {
  public:
   explicit PoseGraph(const GraphOptions& options = {});
@@ -117,7 +121,8 @@ class PoseGraph {
   void add_gravity(NodeId i, const Eigen::Vector3d& up_body, double sigma_rad);
 
   /// Moves the poses. The same bits on every repeat (one thread).
-  Result optimise();
+  /// \param start  kGuesses makes the outcome independent of when optimise() was called before
+  Result optimise(Start start = Start::kLastSolution);
 
   std::size_t size() const { return ids_.size(); }
   bool contains(NodeId id) const { return index_of_.contains(id); }
@@ -141,7 +146,9 @@ class PoseGraph {
   void find_up();
   /// Fixes that are spread out turn the whole graph into ENU, once.
   void georeference();
-  void evaluate();
+  void forget_solution();
+  /// Residuals, chi-squares and weights at the present poses; returns half the robust sum.
+  double evaluate();
 
   GraphOptions options_;
   std::map<NodeId, std::size_t> index_of_;
@@ -152,6 +159,8 @@ class PoseGraph {
   std::vector<Fix> fixes_;
   std::vector<Level> levels_;
   std::size_t solved_nodes_ = 0;  ///< how many the last solution has
+  std::size_t judged_edges_ = 0;  ///< how many it has given a weight
+  std::size_t judged_fixes_ = 0;
   Eigen::Vector3d up_map_ = Eigen::Vector3d::UnitZ();
   bool is_georeferenced_ = false;
 };
