@@ -47,7 +47,9 @@ void KeyframeMap::add(geometry::Stamp stamp, const std::string& sensor, std::spa
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (!occupied.insert(geometry::voxel_key({x[i], y[i], z[i]}, options_.voxel_m)).second)
       continue;
-    points->insertPointFast(x[i], y[i], z[i]);
+    const Eigen::Vector3d p = Eigen::Vector3d(x[i], y[i], z[i]) - options_.p_body_sensor;
+    points->insertPointFast(static_cast<float>(p.x()), static_cast<float>(p.y()),
+                            static_cast<float>(p.z()));
     if (!intensity.empty()) points->setPointIntensity(points->size() - 1, intensity[i]);
   }
   points->mark_as_modified();
@@ -55,6 +57,8 @@ void KeyframeMap::add(geometry::Stamp stamp, const std::string& sensor, std::spa
   auto observation = mrpt::obs::CObservationPointCloud::Create();
   observation->timestamp = dataset::to_mrpt(stamp);
   observation->sensorLabel = sensor;
+  observation->sensorPose =
+      dataset::to_mrpt(geometry::Pose3{Eigen::Matrix3d::Identity(), options_.p_body_sensor});
   observation->pointcloud = points;
   auto frame = mrpt::obs::CSensoryFrame::Create();
   frame->insert(observation);

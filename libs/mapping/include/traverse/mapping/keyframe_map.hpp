@@ -6,6 +6,8 @@
 #include <span>
 #include <string>
 
+#include <Eigen/Core>
+
 #include "traverse/geometry/pose3.hpp"
 #include "traverse/geometry/stamp.hpp"
 
@@ -15,6 +17,7 @@ struct KeyframeMapOptions {
   double spacing_m = 2;      ///< a new keyframe after so much motion
   double spacing_rad = 0.3;  ///< or so much rotation
   double voxel_m = 0.3;      ///< of a keyframe's points one a cube of this edge is kept
+  Eigen::Vector3d p_body_sensor = Eigen::Vector3d::Zero();  ///< where the rays start, body frame
 };
 
 /// Scans along the way with their poses, as an MRPT simple map (mrpt::maps::CSimpleMap) from which
