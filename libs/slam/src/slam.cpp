@@ -258,6 +258,13 @@ std::size_t Slam::accepted_loops() const {
       std::count_if(loops_.begin(), loops_.end(), [](const Loop& l) { return l.is_accepted(); }));
 }
 
+std::vector<optimization::FactorUse> Slam::graph_factors() const {
+  std::vector<optimization::FactorUse> uses{{"between poses"}};
+  if (!graph_.fixes().empty()) uses.push_back({"antenna position"});
+  if (!graph_.levels().empty()) uses.push_back({"up direction"});
+  return uses;
+}
+
 std::shared_ptr<const Submap> Slam::submap_around(std::size_t candidate) {
   const auto every = static_cast<std::size_t>(options_.submap_every);
   const std::size_t centre =

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "traverse/config/binder.hpp"
+#include "traverse/optimization/factor_kind.hpp"
 #include "traverse/pose_graph/pose_graph.hpp"
 #include "traverse/slam/keyframe.hpp"
 #include "traverse/slam/keyframe_maker.hpp"
@@ -83,12 +84,15 @@ class Slam {
   /// At the end: loops that found no witness are turned away, the graph is solved once more.
   void finish();
 
+  const OdometryChain& chain() const { return chain_; }
   const KeyframeStore& keyframes() const { return keyframes_; }
   /// T_map_lidar of a keyframe by the last solution.
   const geometry::Pose3& pose(std::size_t keyframe) const { return graph_.pose(keyframe); }
   const std::vector<Loop>& loops() const { return loops_; }
   std::size_t accepted_loops() const;
   const pose_graph::PoseGraph& graph() const { return graph_; }
+  /// The factors that its graph solves with; a run checks their Jacobians.
+  std::vector<optimization::FactorUse> graph_factors() const;
   const std::optional<pose_graph::Result>& solution() const { return solution_; }
   /// Whether anything but odometry is in the graph; else the map is odometry's.
   bool is_corrected() const { return solution_.has_value(); }
