@@ -52,17 +52,13 @@ std::vector<config::Setting> settings_of(const config::Document& document) {
 template <typename Options>
 struct LidarOptions {
   Options odometry;
-  bool close_loops = false;
-  slam::SlamOptions slam;
+  SlamEstimatorOptions slam;
 };
 
 template <typename Options>
 void bind(config::Binder& b, LidarOptions<Options>& o) {
   bind(b, o.odometry);
-  b.group("slam", "loops over the odometry", [&](config::Binder& g) {
-    g.flag("use", o.close_loops, "close loops; off: odometry alone");
-    bind(g, o.slam);
-  });
+  b.group("slam", "loops over the odometry", [&](config::Binder& g) { bind(g, o.slam); });
 }
 
 /// An estimator of the lidar kind: an algorithm and the options it is made from.
@@ -75,8 +71,8 @@ std::unique_ptr<Estimator> make_lidar(const config::Document& document,
     return std::make_unique<Odometry>(options.odometry, profile, motion_compensated);
   };
   auto odometry = std::make_unique<LidarEstimator>(make, recording);
-  if (!options.close_loops) return odometry;
-  return std::make_unique<SlamEstimator>(std::move(odometry), options.slam);
+  if (!options.slam.use) return odometry;
+  return std::make_unique<SlamEstimator>(std::move(odometry), recording, options.slam);
 }
 
 template <typename Odometry, typename Options>

@@ -1,6 +1,7 @@
 #include "slam_estimator.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -10,6 +11,8 @@ namespace traverse::pipeline {
 
 namespace {
 
+constexpr double kUnknownAltitude_m = 1000;  // standard deviation
+
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
       .count();
@@ -17,16 +20,41 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
+void bind(config::Binder& b, SlamEstimatorOptions& o) {
+  using config::Range;
+  b.flag("use", o.use, "close loops; off: odometry alone");
+  b.group("gnss", "fixes of the recording's first receiver", [&](config::Binder& g) {
+    g.flag("use", o.gnss.use, "let fixes hold the map, where there are any");
+    g.number("sigma_m", o.gnss.sigma_m, Range::positive(),
+             "of a fix that does not tell its covariance");
+    g.number("least_sigma_m", o.gnss.least_sigma_m, Range::positive(), "believed of any fix");
+  });
+  bind(b, o.slam);
+}
+
 SlamEstimator::SlamEstimator(std::unique_ptr<LidarEstimator> odometry,
-                             const slam::SlamOptions& options)
-    : odometry_(std::move(odometry)),
-      slam_(options, *odometry_->sensor().lidar),
+                             const dataset::RecordingInfo& recording,
+                             const SlamEstimatorOptions& options)
+    : gnss_(options.gnss),
+      odometry_(std::move(odometry)),
+      slam_(options.slam, *odometry_->sensor().lidar),
       columns_(odometry_->columns()) {
   columns_.insert(columns_.end(), {"keyframe", "loops", "slam_ms"});
+  const auto* receiver = recording.rig.first(sensors::SensorKind::kGnss);
+  if (!gnss_.use || receiver == nullptr) return;
+  receiver_ = receiver->label;
+  antenna_lidar_ =
+      odometry_->sensor().T_body_sensor.inverse() * receiver->T_body_sensor.translation;
 }
 
 SlamEstimator::SlamEstimator(const SlamEstimator& other)
-    : odometry_(other.odometry_->copy()),
+    : gnss_(other.gnss_),
+      receiver_(other.receiver_),
+      antenna_lidar_(other.antenna_lidar_),
+      plane_(other.plane_),
+      fixes_(other.fixes_),
+      last_frame_(other.last_frame_),
+      odometry_(other.odometry_->copy()),
       slam_(other.slam_),
       columns_(other.columns_),
       waiting_(other.waiting_) {}
@@ -36,6 +64,7 @@ std::unique_ptr<Estimator> SlamEstimator::clone() const {
 }
 
 std::vector<PoseFrame> SlamEstimator::process(const sensors::Measurement& measurement) {
+  if (const auto* fix = std::get_if<sensors::GnssFix>(&measurement)) take(*fix);
   const auto* scan = std::get_if<std::shared_ptr<const sensors::LidarScan>>(&measurement);
   if (scan != nullptr && (*scan)->sensor == odometry_->sensor().label) waiting_.push_back(*scan);
   return close_loops(odometry_->process(measurement));
@@ -59,6 +88,7 @@ std::vector<PoseFrame> SlamEstimator::close_loops(std::vector<PoseFrame> frames)
       const auto points = odometry_->odometry().used_scan(*scan, latest[k].velocity, false);
       slam_.add(latest[k], *scan, points, odometry_->odometry().deskew_note() == "on");
     }
+    place_fixes(latest[k]);
     const double milliseconds = milliseconds_since(started);
     frames[k].record.push_back(wanted ? 1 : 0);
     frames[k].record.push_back(static_cast<double>(slam_.loops().size() - loops_before));
@@ -68,11 +98,52 @@ std::vector<PoseFrame> SlamEstimator::close_loops(std::vector<PoseFrame> frames)
   return frames;
 }
 
+void SlamEstimator::take(const sensors::GnssFix& fix) {
+  if (receiver_.empty() || fix.sensor != receiver_) return;
+  // Fixes before the first keyframe have nothing to hold.
+  if (slam_.keyframes().size() > 0) fixes_.push_back(fix);
+}
+
+/// Fixes come between frames: each counts for the latest keyframe, whose antenna odometry carries
+/// to where it was at the moment of the fix.
+void SlamEstimator::place_fixes(const lidar::Frame& frame) {
+  while (!fixes_.empty() && fixes_.front().stamp <= frame.stamp) {
+    const sensors::GnssFix fix = fixes_.front();
+    fixes_.pop_front();
+    if (!last_frame_ || fix.stamp < last_frame_->stamp) continue;
+    const double share = geometry::seconds_between(last_frame_->stamp, fix.stamp) /
+                         geometry::seconds_between(last_frame_->stamp, frame.stamp);
+    place(fix, geometry::interpolate(last_frame_->T_map_lidar, frame.T_map_lidar, share));
+  }
+  last_frame_ = frame;
+}
+
+void SlamEstimator::place(const sensors::GnssFix& fix, const geometry::Pose3& T_odom_lidar) {
+  const bool has_altitude = std::isfinite(fix.altitude_m);
+  const geodesy::Geodetic place{fix.latitude_deg, fix.longitude_deg,
+                                has_altitude ? fix.altitude_m : 0};
+  if (!plane_) plane_.emplace(place);
+  Eigen::Matrix3d covariance = fix.covariance_enu.value_or(
+      Eigen::Matrix3d(gnss_.sigma_m * gnss_.sigma_m * Eigen::Matrix3d::Identity()));
+  covariance.diagonal().array() += gnss_.least_sigma_m * gnss_.least_sigma_m;
+  if (!has_altitude) covariance(2, 2) += kUnknownAltitude_m * kUnknownAltitude_m;
+  const geometry::Pose3 T_keyframe_lidar =
+      slam_.chain().T_odom_lidar(slam_.keyframes().size() - 1).inverse() * T_odom_lidar;
+  slam_.add_gnss(plane_->to_enu(place), covariance, T_keyframe_lidar * antenna_lidar_);
+}
+
 std::vector<Decision> SlamEstimator::decisions() const {
   std::vector<Decision> decisions = odometry_->decisions();
   decisions.push_back(
       {"loops", fmt::format("{} of {} candidates accepted, {} keyframes", slam_.accepted_loops(),
                             slam_.loops().size(), slam_.keyframes().size())});
+  if (slam_.graph().is_georeferenced()) {
+    const geodesy::Geodetic& origin = plane_->origin();
+    decisions.push_back(
+        {"map frame", fmt::format("ENU, origin {:.9f} deg N, {:.9f} deg E, {:.3f} m; {} fixes",
+                                  origin.latitude_deg, origin.longitude_deg, origin.altitude_m,
+                                  slam_.graph().fixes().size())});
+  }
   return decisions;
 }
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "traverse/geodesy/local_tangent_plane.hpp"
+#include "traverse/geometry/trajectory.hpp"
 #include "traverse/pipeline/estimator.hpp"
 #include "traverse/slam/slam.hpp"
 
@@ -12,12 +14,27 @@
 
 namespace traverse::pipeline {
 
+struct SlamGnssOptions {
+  bool use = true;     ///< fixes of the recording's first receiver, where it has one
+  double sigma_m = 3;  ///< of a fix that does not tell its covariance
+  double least_sigma_m = 0.02;
+};
+
+/// Loops over an odometry, and what else its graph takes.
+struct SlamEstimatorOptions {
+  bool use = false;  ///< off: odometry alone
+  SlamGnssOptions gnss;
+  slam::SlamOptions slam;
+};
+void bind(config::Binder& binder, SlamEstimatorOptions& options);
+
 /// A lidar odometry and the loops that are closed over it. The frames it tells are odometry's, with
 /// two more columns in the health record and the time that keyframes and loops took;
 /// slam_map() corrects them.
 class SlamEstimator final : public Estimator {
  public:
-  SlamEstimator(std::unique_ptr<LidarEstimator> odometry, const slam::SlamOptions& options);
+  SlamEstimator(std::unique_ptr<LidarEstimator> odometry, const dataset::RecordingInfo& recording,
+                const SlamEstimatorOptions& options);
 
   const std::vector<std::string>& columns() const override { return columns_; }
   std::vector<PoseFrame> process(const sensors::Measurement& measurement) override;
@@ -40,6 +57,16 @@ class SlamEstimator final : public Estimator {
   SlamEstimator(const SlamEstimator& other);
 
   std::vector<PoseFrame> close_loops(std::vector<PoseFrame> frames);
+  void take(const sensors::GnssFix& fix);
+  void place_fixes(const lidar::Frame& frame);
+  void place(const sensors::GnssFix& fix, const geometry::Pose3& T_odom_lidar);
+
+  SlamGnssOptions gnss_;
+  std::string receiver_;  ///< label; empty: no fixes
+  Eigen::Vector3d antenna_lidar_ = Eigen::Vector3d::Zero();
+  std::optional<geodesy::LocalTangentPlane> plane_;  ///< at the first fix
+  std::deque<sensors::GnssFix> fixes_;               ///< that wait for the frame after them
+  std::optional<lidar::Frame> last_frame_;
 
   std::unique_ptr<LidarEstimator> odometry_;
   slam::Slam slam_;
