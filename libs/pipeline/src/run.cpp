@@ -24,6 +24,9 @@
 #include "traverse/optimization/jacobian_audit.hpp"
 #include "traverse/pipeline/factor_kinds.hpp"
 #include "traverse/pipeline/frame_table.hpp"
+#include "traverse/slam/slam.hpp"
+
+#include "slam_results.hpp"
 
 namespace traverse::pipeline {
 
@@ -56,37 +59,58 @@ class Results {
         frames_(table_columns(estimator)),
         scorer_(estimator.points_are()),
         map_(options.map_voxel_m, options.most_map_points),
-        keyframes_(mapping::KeyframeMapOptions{}) {}
+        keyframes_(mapping::KeyframeMapOptions{}),
+        closes_loops_(estimator.slam_map().has_value()) {}
 
   void add(const PoseFrame& frame, const ScanPtr& scan) {
     add_row(frame);
     trajectory_.push_back(frame.stamp, frame.T_map_body);
     if (scan == nullptr) return;
     const bool sample = is_sample();
+    const bool scored = (frames_.rows().size() - 1) % score_every_ == 0;
+    sensor_ = scan->sensor;
+    if (closes_loops_ && !sample && !scored) return;
     const UsedScan used = estimator_.used_scan(*scan, frame, sample);
-    map_.insert(used.x, used.y, used.z, used.intensity, frame.T_map_body);
-    if (keyframes_.wants(frame.T_map_body)) {
-      keyframes_.add(frame.stamp, scan->sensor, used.x, used.y, used.z, used.intensity,
-                     frame.T_map_body);
-    }
-    if ((frames_.rows().size() - 1) % score_every_ == 0) {
-      scorer_.add(used.x, used.y, used.z, frame.T_map_body);
-    }
+    if (!closes_loops_) add_to_maps(frame, used);
+    if (scored && closes_loops_) waiting_.add(trajectory_.size() - 1, used);
+    if (scored && !closes_loops_) scorer_.add(used.x, used.y, used.z, frame.T_map_body);
     if (sample) {
       sample_ = used;
       sample_frame_ = first_frame_ + frames_.rows().size() - 1;
     }
   }
 
+  /// Once the last frame is in: the trajectory and the maps by what loops have taught.
+  void correct() {
+    const std::optional<SlamMap> slam_map = estimator_.slam_map();
+    if (!slam_map) return;
+    odometry_ = std::exchange(trajectory_, slam_map->corrected(trajectory_));
+    rebuild_maps(*slam_map, sensor_, map_, keyframes_);
+  }
+
+  /// The final poses of the frames.
   const geometry::Trajectory& trajectory() const { return trajectory_; }
+  /// Those by odometry alone, if loops were closed over it.
+  const std::optional<geometry::Trajectory>& odometry() const { return odometry_; }
   const FrameTable& frames() const { return frames_; }
   const mapping::VoxelMap& map() const { return map_; }
   const mapping::KeyframeMap& keyframes() const { return keyframes_; }
   const UsedScan& sample() const { return sample_; }
   std::size_t sample_frame() const { return sample_frame_; }
-  std::optional<evaluation::Consistency> consistency() { return scorer_.score(); }
+  std::optional<evaluation::Consistency> consistency() {
+    return closes_loops_ ? waiting_.score(trajectory_, estimator_.points_are()) : scorer_.score();
+  }
+  std::optional<evaluation::Consistency> odometry_consistency() const {
+    return waiting_.score(*odometry_, estimator_.points_are());
+  }
 
  private:
+  void add_to_maps(const PoseFrame& frame, const UsedScan& used) {
+    map_.insert(used.x, used.y, used.z, used.intensity, frame.T_map_body);
+    if (!keyframes_.wants(frame.T_map_body)) return;
+    keyframes_.add(frame.stamp, sensor_, used.x, used.y, used.z, used.intensity, frame.T_map_body);
+  }
+
   void add_row(const PoseFrame& frame) {
     std::vector<double> row{static_cast<double>(first_frame_ + frames_.rows().size()),
                             frame.stamp.seconds()};
@@ -110,6 +134,10 @@ class Results {
   evaluation::ConsistencyScorer scorer_;
   mapping::VoxelMap map_;
   mapping::KeyframeMap keyframes_;
+  bool closes_loops_;
+  std::optional<geometry::Trajectory> odometry_;
+  WaitingForScore waiting_;
+  std::string sensor_;
   UsedScan sample_;
   std::size_t sample_frame_ = 0;
 };
@@ -178,20 +206,31 @@ evaluation::EvaluationOptions evaluation_options(const dataset::RecordingInfo& r
   return options;
 }
 
-/// Accuracy against the reference if there is one, and the sharpness of the map in any case.
-void evaluate_run(const dataset::Source& source, Results& results, const RunFolder& folder,
-                  RunRecord& record) {
-  evaluation::Evaluation evaluation = evaluation::evaluate(results.trajectory());
+evaluation::Evaluation evaluate_trajectory(const dataset::Source& source,
+                                           const geometry::Trajectory& trajectory,
+                                           RunRecord& record) {
   if (const auto& reference = source.reference()) {
     try {
-      evaluation = evaluation::evaluate(results.trajectory(), reference->T_map_body,
-                                        evaluation_options(source.info()));
+      return evaluation::evaluate(trajectory, reference->T_map_body,
+                                  evaluation_options(source.info()));
     } catch (const evaluation::EvaluationError& error) {
       record.evaluation_error = error.what();
     }
   }
+  return evaluation::evaluate(trajectory);
+}
+
+/// Accuracy against the reference if there is one, and the sharpness of the map in any case; the
+/// same of odometry alone if loops were closed over it.
+void evaluate_run(const dataset::Source& source, Results& results, const RunFolder& folder,
+                  RunRecord& record) {
+  evaluation::Evaluation evaluation = evaluate_trajectory(source, results.trajectory(), record);
   evaluation.consistency = results.consistency();
   files::write_text(folder.evaluation(), evaluation::to_json(evaluation));
+  if (!results.odometry()) return;
+  evaluation = evaluate_trajectory(source, *results.odometry(), record);
+  evaluation.consistency = results.odometry_consistency();
+  files::write_text(folder.odometry_evaluation(), evaluation::to_json(evaluation));
 }
 
 /// The Jacobians of the factors that the estimator solves with, checked in this very program.
@@ -215,6 +254,7 @@ void fill_results(const Results& results, RunRecord& record) {
 void write_results(const dataset::Source& source, const Results& results, const RunFolder& folder) {
   dataset::write_tum(folder.trajectory(), results.trajectory());
   if (source.reference()) dataset::write_tum(folder.reference(), source.reference()->T_map_body);
+  if (results.odometry()) dataset::write_tum(folder.odometry(), *results.odometry());
   results.frames().write_csv(folder.frames());
   if (results.map().size() > 0) {
     results.map().write_ply(folder.map_points());
@@ -275,8 +315,12 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
                                "range asked for");
     }
     observer.stage("maps and trajectory");
+    results.correct();
     fill_results(results, record);
     write_results(source, results, folder);
+    if (const auto slam_map = pipeline.estimator->slam_map()) {
+      slam::write_loops(folder.loops(), slam_map->slam().loops());
+    }
     observer.stage("evaluation");
     evaluate_run(source, results, folder, record);
     check_jacobians(*pipeline.estimator, folder);

@@ -11,6 +11,11 @@ struct RunFolder {
 
   std::filesystem::path record() const { return path / "run.json"; }
   std::filesystem::path trajectory() const { return path / "trajectory.tum"; }
+  /// The raw poses of the odometry that loops were closed over, and their evaluation.
+  std::filesystem::path odometry() const { return path / "odometry.tum"; }
+  std::filesystem::path odometry_evaluation() const { return path / "odometry_evaluation.json"; }
+  std::filesystem::path loops() const { return path / "loops.csv"; }
+  std::filesystem::path keyframes() const { return path / "keyframes.simplemap"; }
   std::filesystem::path reference() const { return path / "reference.tum"; }
   std::filesystem::path frames() const { return path / "frames.csv"; }
   std::filesystem::path map_points() const { return path / "map.ply"; }
