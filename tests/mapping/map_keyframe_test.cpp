@@ -24,10 +24,10 @@ TEST(ReadSimpleMap, ReadsBackWhatAKeyframeMapWrote) {
   const geometry::Pose3 T_map_body = random.pose(1, 100);
   const std::vector<float> x{1, 2, 3}, y{-4, 5, 6}, z{0.5F, 0.25F, 8};
   const std::vector<float> intensity{0.1F, 0.2F, 0.3F};
-  KeyframeMapOptions options;
-  options.p_body_sensor = {0.5, 0, 1.75};
-  KeyframeMap map(options);
-  map.add(geometry::Stamp::from_seconds(1.3e9), "top", x, y, z, intensity, T_map_body);
+  const Eigen::Vector3d p_body_sensor(0.5, 0, 1.75);
+  KeyframeMap map(KeyframeMapOptions{});
+  map.add(geometry::Stamp::from_seconds(1.3e9), "top", x, y, z, intensity, T_map_body,
+          p_body_sensor);
   map.write(folder / "map.simplemap");
 
   const auto keyframes = read_simple_map(folder / "map.simplemap");
@@ -36,7 +36,7 @@ TEST(ReadSimpleMap, ReadsBackWhatAKeyframeMapWrote) {
   EXPECT_EQ(read.stamp, geometry::Stamp::from_seconds(1.3e9));
   EXPECT_EQ(read.sensor, "top");
   EXPECT_LT((read.T_map_body.matrix() - T_map_body.matrix()).norm(), 1e-12);
-  EXPECT_EQ(read.p_body_sensor, options.p_body_sensor);
+  EXPECT_EQ(read.p_body_sensor, p_body_sensor);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(read.x[i], x[i], 1e-5);
     EXPECT_NEAR(read.y[i], y[i], 1e-5);

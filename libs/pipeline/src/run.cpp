@@ -20,6 +20,7 @@
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/digest.hpp"
 #include "traverse/mapping/keyframe_map.hpp"
+#include "traverse/mapping/map_origin.hpp"
 #include "traverse/mapping/voxel_map.hpp"
 #include "traverse/optimization/jacobian_audit.hpp"
 #include "traverse/pipeline/factor_kinds.hpp"
@@ -54,6 +55,7 @@ class Results {
   Results(const Estimator& estimator, const dataset::RecordingInfo& recording,
           const RunOptions& options)
       : estimator_(estimator),
+        recording_(recording),
         first_frame_(options.first),
         score_every_(recording.expected_scans / kMostScoredScans + 1),
         frames_(table_columns(estimator)),
@@ -108,7 +110,9 @@ class Results {
   void add_to_maps(const PoseFrame& frame, const UsedScan& used) {
     map_.insert(used.x, used.y, used.z, used.intensity, frame.T_map_body);
     if (!keyframes_.wants(frame.T_map_body)) return;
-    keyframes_.add(frame.stamp, sensor_, used.x, used.y, used.z, used.intensity, frame.T_map_body);
+    const sensors::MountedSensor* lidar = recording_.rig.find(sensor_);
+    keyframes_.add(frame.stamp, sensor_, used.x, used.y, used.z, used.intensity, frame.T_map_body,
+                   lidar == nullptr ? Eigen::Vector3d::Zero() : lidar->T_body_sensor.translation);
   }
 
   void add_row(const PoseFrame& frame) {
@@ -127,6 +131,7 @@ class Results {
   }
 
   const Estimator& estimator_;
+  const dataset::RecordingInfo& recording_;  ///< of the source: a rawlog's rig grows in reading
   std::size_t first_frame_;
   std::size_t score_every_;
   geometry::Trajectory trajectory_;
@@ -320,6 +325,7 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
     write_results(source, results, folder);
     if (const auto slam_map = pipeline.estimator->slam_map()) {
       slam::write_loops(folder.loops(), slam_map->slam().loops());
+      if (slam_map->origin()) mapping::write_map_origin(folder.origin(), *slam_map->origin());
     }
     observer.stage("evaluation");
     evaluate_run(source, results, folder, record);

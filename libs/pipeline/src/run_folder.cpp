@@ -11,7 +11,7 @@ void RunFolder::prepare() const {
   files::make_writable_folder(path);
   for (const auto& place :
        {record(), trajectory(), odometry(), odometry_evaluation(), loops(), keyframes(),
-        reference(), frames(), map_points(), simple_map(), sample_scan(), evaluation(), jacobians(),
+        reference(), frames(), map_points(), simple_map(), origin(), sample_scan(), evaluation(), jacobians(),
         factor_bench(), images(), report(), report_json()}) {
     std::error_code failure;
     std::filesystem::remove_all(place, failure);

@@ -47,7 +47,9 @@ class SlamEstimator final : public Estimator {
   std::vector<Decision> decisions() const override;
   std::vector<optimization::FactorUse> factors() const override;
   std::optional<SlamMap> slam_map() const override {
-    return SlamMap(slam_, odometry_->sensor().T_body_sensor);
+    std::optional<geodesy::Geodetic> origin;
+    if (slam_.graph().is_georeferenced()) origin = plane_->origin();
+    return SlamMap(slam_, odometry_->sensor().T_body_sensor, origin);
   }
   std::unique_ptr<Estimator> clone() const override;
   std::vector<Eigen::Vector3d> local_map() const override { return odometry_->local_map(); }

@@ -56,7 +56,7 @@ void rebuild_maps(const SlamMap& slam_map, const std::string& sensor, mapping::V
     const geometry::Pose3 T_map_body = slam_map.optimised(i) * T_body_lidar.inverse();
     points.insert(placed.x, placed.y, placed.z, placed.intensity, T_map_body);
     keyframes.add(keyframe->stamp, sensor, placed.x, placed.y, placed.z, placed.intensity,
-                  T_map_body);
+                  T_map_body, T_body_lidar.translation);
   }
 }
 

@@ -20,6 +20,8 @@ struct RunFolder {
   std::filesystem::path frames() const { return path / "frames.csv"; }
   std::filesystem::path map_points() const { return path / "map.ply"; }
   std::filesystem::path simple_map() const { return path / "map.simplemap"; }
+  /// Where on earth the map is, if its frame is ENU.
+  std::filesystem::path origin() const { return path / "origin.json"; }
   /// One scan of the run with the feature class of each point.
   std::filesystem::path sample_scan() const { return path / "scan.ply"; }
   std::filesystem::path evaluation() const { return path / "evaluation.json"; }
