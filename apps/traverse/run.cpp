@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -59,6 +60,7 @@ struct RunArguments {
   std::string reference;
   std::string reference_frame;
   std::string gnss_outages;
+  std::optional<bool> slam;
   std::size_t first = 0;
   std::optional<std::size_t> last;
   int threads = 1;
@@ -107,6 +109,9 @@ void run_recording(RunArguments& arguments, const std::vector<std::string>& comm
   if (!arguments.gnss_outages.empty()) {
     arguments.preset.assignments.push_back("outage.spells_s=[" + arguments.gnss_outages + "]");
   }
+  if (arguments.slam) {
+    arguments.preset.assignments.push_back(*arguments.slam ? "slam.use=true" : "slam.use=false");
+  }
   const InstalledFiles installed = find_installed_files();
   const pipeline::Preset preset = checked_preset(arguments.preset, installed.share);
   if (arguments.budget) report::require_valid_budget(*arguments.budget);
@@ -153,6 +158,7 @@ constexpr const char* kExamples = R"(Examples:
   traverse run 2011_09_26_drive_0001 -o RUN            a recording that states its own facts
   traverse run sequences/00 -o RUN --last 499          the first 500 frames of KITTI odometry 00
   traverse run drive.rawlog -o RUN --pipeline floam --set solver.line_residual=vector
+  traverse run drive -o RUN --no-slam                  odometry alone, no loops
   traverse run log.txt -o RUN --pipeline gins-window --drop-gnss 10,30
                                                        GNSS, IMU and wheels; what it is worth without
   traverse run drive -o RUN --reference truth.tum --threads 4
@@ -191,6 +197,9 @@ void add_run(CLI::App& app) {
   run->add_option("--reference-frame", arguments->reference_frame,
                   "what moves along the reference: body, lidar or camera")
       ->check(CLI::IsMember({"body", "lidar", "camera"}));
+  run->add_flag_function(
+      "--slam,!--no-slam", [arguments](std::int64_t times) { arguments->slam = times > 0; },
+      "close loops over the odometry, or not; else as the preset says");
   run->add_flag("--bench-factors", arguments->bench_factors,
                 "measure analytic, automatic and numeric derivatives on a frame of the run");
   run->add_option("--drop-gnss", arguments->gnss_outages,

@@ -41,13 +41,16 @@ bool KeyframeMap::wants(const geometry::Pose3& T_map_body) const {
 
 void KeyframeMap::add(geometry::Stamp stamp, const std::string& sensor, std::span<const float> x,
                       std::span<const float> y, std::span<const float> z,
-                      std::span<const float> intensity, const geometry::Pose3& T_map_body) {
+                      std::span<const float> intensity, const geometry::Pose3& T_map_body,
+                      const Eigen::Vector3d& p_body_sensor) {
   auto points = mrpt::maps::CPointsMapXYZI::Create();
   tsl::robin_set<std::uint64_t, geometry::VoxelHash> occupied;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (!occupied.insert(geometry::voxel_key({x[i], y[i], z[i]}, options_.voxel_m)).second)
       continue;
-    points->insertPointFast(x[i], y[i], z[i]);
+    const Eigen::Vector3d p = Eigen::Vector3d(x[i], y[i], z[i]) - p_body_sensor;
+    points->insertPointFast(static_cast<float>(p.x()), static_cast<float>(p.y()),
+                            static_cast<float>(p.z()));
     if (!intensity.empty()) points->setPointIntensity(points->size() - 1, intensity[i]);
   }
   points->mark_as_modified();
@@ -55,6 +58,8 @@ void KeyframeMap::add(geometry::Stamp stamp, const std::string& sensor, std::spa
   auto observation = mrpt::obs::CObservationPointCloud::Create();
   observation->timestamp = dataset::to_mrpt(stamp);
   observation->sensorLabel = sensor;
+  observation->sensorPose =
+      dataset::to_mrpt(geometry::Pose3{Eigen::Matrix3d::Identity(), p_body_sensor});
   observation->pointcloud = points;
   auto frame = mrpt::obs::CSensoryFrame::Create();
   frame->insert(observation);

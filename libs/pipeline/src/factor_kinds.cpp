@@ -5,6 +5,7 @@
 
 #include "traverse/inertial/factor_kinds.hpp"
 #include "traverse/lidar/factor_kinds.hpp"
+#include "traverse/pose_graph/factor_kinds.hpp"
 
 namespace traverse::pipeline {
 
@@ -15,6 +16,7 @@ std::vector<optimization::FactorKind> factor_kinds() {
   };
   add(lidar::factor_kinds());
   add(inertial::factor_kinds());
+  add(pose_graph::factor_kinds());
   return all;
 }
 

@@ -33,11 +33,19 @@ void append(const Eigen::Vector3d& v, std::vector<float>& values) {
 /// The columns of worst_frames.ply.
 class Columns {
  public:
-  void add_scan_point(std::size_t frame, const float* p) {
-    add(frame, Kind::kScan, p, kNone.data(), 0);
+  /// What is added from now on is of this frame.
+  void begin(std::size_t frame, const geometry::Pose3& T_map_body) {
+    number_ = static_cast<std::uint32_t>(frame);
+    T_map_body_ = T_map_body;
   }
-  void add_match(std::size_t frame, const float* row) {
-    add(frame, row[7] != 0 ? Kind::kOnLine : Kind::kOnPlane, row, row + 3, row[6]);
+  /// \param p_body its three values
+  void add_scan_point(const float* p_body) {
+    add(Kind::kScan, T_map_body_ * vector_at(p_body), Eigen::Vector3d::Zero(), 0);
+  }
+  /// \param row of kValuesOfMatch
+  void add_match(const float* row) {
+    add(row[7] != 0 ? Kind::kOnLine : Kind::kOnPlane, T_map_body_ * vector_at(row),
+        T_map_body_.rotation * vector_at(row + 3), row[6]);
   }
 
   dataset::PointCloud take() {
@@ -53,19 +61,25 @@ class Columns {
   }
 
  private:
-  static constexpr std::array<float, 3> kNone{};
   static constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
 
-  void add(std::size_t frame, Kind kind, const float* p, const float* offset, float residual_m) {
-    frame_.push_back(static_cast<std::uint32_t>(frame));
+  static Eigen::Vector3d vector_at(const float* values) {
+    return Eigen::Map<const Eigen::Vector3f>(values).cast<double>();
+  }
+
+  void add(Kind kind, const Eigen::Vector3d& p_map, const Eigen::Vector3d& offset_map,
+           float residual_m) {
+    frame_.push_back(number_);
     kind_.push_back(static_cast<std::uint8_t>(kind));
     residual_m_.push_back(residual_m);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      position_[axis].push_back(p[axis]);
-      offset_[axis].push_back(offset[axis]);
+      position_[axis].push_back(static_cast<float>(p_map[static_cast<Eigen::Index>(axis)]));
+      offset_[axis].push_back(static_cast<float>(offset_map[static_cast<Eigen::Index>(axis)]));
     }
   }
 
+  std::uint32_t number_ = 0;
+  geometry::Pose3 T_map_body_;
   std::vector<std::uint32_t> frame_;
   std::vector<std::uint8_t> kind_;
   std::array<std::vector<float>, 3> position_;
@@ -84,23 +98,27 @@ FrameRecorder::FrameRecorder(const std::filesystem::path& folder, const Estimato
   }
 }
 
+bool FrameRecorder::wants(std::size_t pose, const PoseFrame& frame) const {
+  if (!residual_column_) return false;
+  if (!pending_ || pose / kFramesTogether != pending_->pose / kFramesTogether) return true;
+  return frame.record[*residual_column_] > pending_->residual_rms_m;
+}
+
 void FrameRecorder::add(std::size_t pose, const PoseFrame& frame, const UsedScan& used) {
-  if (!residual_column_) return;
   if (pending_ && pose / kFramesTogether != pending_->pose / kFramesTogether) keep_pending();
   const double residual_rms_m = frame.record[*residual_column_];
-  if (pending_ && residual_rms_m <= pending_->residual_rms_m) return;
+  const geometry::Pose3 T_body_map = frame.T_map_body.inverse();
 
   pending_values_.clear();
   for_each_spread(used.x.size(), kMostScanPoints, [&](std::size_t i) {
-    const Eigen::Vector3d p_body(used.x[i], used.y[i], used.z[i]);
-    append(frame.T_map_body * p_body, pending_values_);
+    append(Eigen::Vector3d(used.x[i], used.y[i], used.z[i]), pending_values_);
   });
   const std::size_t scan_points = pending_values_.size() / kValuesOfPoint;
   const std::vector<MatchedPoint> matches = estimator_.matches();
   for_each_spread(matches.size(), kMostMatches, [&](std::size_t i) {
     const MatchedPoint& match = matches[i];
-    append(match.p_map, pending_values_);
-    append(match.p_map - match.foot_map, pending_values_);
+    append(T_body_map * match.p_map, pending_values_);
+    append(T_body_map.rotation * (match.p_map - match.foot_map), pending_values_);
     pending_values_.push_back(static_cast<float>(match.residual_m));
     pending_values_.push_back(match.on_line ? 1 : 0);
   });
@@ -131,6 +149,7 @@ std::vector<float> FrameRecorder::values_of(const Entry& entry) const {
 }
 
 dataset::PointCloud FrameRecorder::worst_frames(const evaluation::WorstSegments& worst,
+                                                const geometry::Trajectory& T_map_body,
                                                 std::size_t first_frame) {
   keep_pending();
   Columns columns;
@@ -138,13 +157,13 @@ dataset::PointCloud FrameRecorder::worst_frames(const evaluation::WorstSegments&
     const Entry* entry = worst_in(segment);
     if (entry == nullptr) continue;
     const std::vector<float> values = values_of(*entry);
-    const std::size_t frame = first_frame + entry->pose;
+    columns.begin(first_frame + entry->pose, T_map_body.pose(entry->pose));
     const float* at = values.data();
     for (std::size_t k = 0; k < entry->scan_points; ++k, at += kValuesOfPoint) {
-      columns.add_scan_point(frame, at);
+      columns.add_scan_point(at);
     }
     for (std::size_t k = 0; k < entry->matches; ++k, at += kValuesOfMatch) {
-      columns.add_match(frame, at);
+      columns.add_match(at);
     }
   }
   return columns.take();

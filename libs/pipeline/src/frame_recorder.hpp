@@ -9,7 +9,7 @@
 #include "traverse/dataset/point_cloud_file.hpp"
 #include "traverse/evaluation/worst_segments.hpp"
 #include "traverse/files/scratch_file.hpp"
-#include "traverse/geometry/pose3.hpp"
+#include "traverse/geometry/trajectory.hpp"
 #include "traverse/pipeline/estimator.hpp"
 
 namespace traverse::pipeline {
@@ -22,16 +22,22 @@ class FrameRecorder {
   /// \param folder on whose disk there is room
   FrameRecorder(const std::filesystem::path& folder, const Estimator& estimator);
 
-  /// Takes the frame of pose `pose`, which the estimator gave last of all.
+  /// Whether this frame is the worst so far of its five: then add() takes it.
+  bool wants(std::size_t pose, const PoseFrame& frame) const;
+
+  /// Takes the frame of pose `pose`, which is wanted and which the estimator gave last of all.
   void add(std::size_t pose, const PoseFrame& frame, const UsedScan& used);
 
   /// The points of one frame of each segment, the one with the largest residuals of those kept:
   /// worst_frames.ply of docs/run-folder.md. Empty if no frame was kept.
+  /// \param T_map_body the final poses of the frames
   /// \param first_frame number of the frame of pose 0
-  dataset::PointCloud worst_frames(const evaluation::WorstSegments& worst, std::size_t first_frame);
+  dataset::PointCloud worst_frames(const evaluation::WorstSegments& worst,
+                                   const geometry::Trajectory& T_map_body, std::size_t first_frame);
 
  private:
-  /// Where a frame stands in the scratch file: x y z of the scan's points, then rows of matches.
+  /// Where a frame stands in the scratch file: x y z of the scan's points, then rows of matches, in
+  /// the body's frame.
   struct Entry {
     std::size_t pose = 0;
     double residual_rms_m = 0;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <variant>
 
 #include <fmt/format.h>
@@ -101,11 +102,14 @@ LidarEstimator::LidarEstimator(const LidarEstimator& other)
       T_lidar_imu_(other.T_lidar_imu_),
       imu_(other.imu_),
       odometry_(other.odometry_->clone()),
-      columns_(other.columns_) {}
+      columns_(other.columns_),
+      latest_(other.latest_) {}
 
-std::unique_ptr<Estimator> LidarEstimator::clone() const {
-  return std::unique_ptr<Estimator>(new LidarEstimator(*this));
+std::unique_ptr<LidarEstimator> LidarEstimator::copy() const {
+  return std::unique_ptr<LidarEstimator>(new LidarEstimator(*this));
 }
+
+std::unique_ptr<Estimator> LidarEstimator::clone() const { return copy(); }
 
 std::vector<Eigen::Vector3d> LidarEstimator::local_map() const {
   std::vector<Eigen::Vector3d> points = odometry_->local_map();
@@ -145,9 +149,10 @@ void LidarEstimator::observe(const sensors::ImuSample& sample) {
 
 std::vector<PoseFrame> LidarEstimator::finish() { return to_body(odometry_->finish()); }
 
-std::vector<PoseFrame> LidarEstimator::to_body(const std::vector<lidar::Frame>& frames) const {
+std::vector<PoseFrame> LidarEstimator::to_body(std::vector<lidar::Frame> frames) {
+  latest_ = std::move(frames);
   std::vector<PoseFrame> result;
-  for (const lidar::Frame& frame : frames) {
+  for (const lidar::Frame& frame : latest_) {
     PoseFrame pose;
     pose.stamp = frame.stamp;
     pose.T_map_body = sensor_.T_body_sensor * frame.T_map_lidar * sensor_.T_body_sensor.inverse();

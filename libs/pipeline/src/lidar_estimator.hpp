@@ -34,10 +34,16 @@ class LidarEstimator final : public Estimator {
   std::vector<Eigen::Vector3d> local_map() const override;
   std::vector<MatchedPoint> matches() const override;
 
+  /// What process() or finish() told last, as the lidar saw it.
+  const std::vector<lidar::Frame>& latest() const { return latest_; }
+  const lidar::Odometry& odometry() const { return *odometry_; }
+  const sensors::MountedSensor& sensor() const { return sensor_; }
+  std::unique_ptr<LidarEstimator> copy() const;
+
  private:
   LidarEstimator(const LidarEstimator& other);
 
-  std::vector<PoseFrame> to_body(const std::vector<lidar::Frame>& frames) const;
+  std::vector<PoseFrame> to_body(std::vector<lidar::Frame> frames);
   void observe(const sensors::ImuSample& sample);
 
   sensors::MountedSensor sensor_;
@@ -45,6 +51,7 @@ class LidarEstimator final : public Estimator {
   std::string imu_;  ///< label of the first IMU of the rig; empty: none
   std::unique_ptr<lidar::Odometry> odometry_;
   std::vector<std::string> columns_;
+  std::vector<lidar::Frame> latest_;
 };
 
 }  // namespace traverse::pipeline

@@ -15,6 +15,7 @@
 
 #include "lidar_estimator.hpp"
 #include "navigation_estimator.hpp"
+#include "slam_estimator.hpp"
 
 namespace traverse::pipeline {
 
@@ -47,20 +48,35 @@ std::vector<config::Setting> settings_of(const config::Document& document) {
   return config::list([&](config::Binder& b) { bind(b, options); });
 }
 
+/// The options of a lidar odometry, and of the loops that may be closed over any of them.
+template <typename Options>
+struct LidarOptions {
+  Options odometry;
+  SlamEstimatorOptions slam;
+};
+
+template <typename Options>
+void bind(config::Binder& b, LidarOptions<Options>& o) {
+  bind(b, o.odometry);
+  b.group("slam", "loops over the odometry", [&](config::Binder& g) { bind(g, o.slam); });
+}
+
 /// An estimator of the lidar kind: an algorithm and the options it is made from.
 template <typename Odometry, typename Options>
 std::unique_ptr<Estimator> make_lidar(const config::Document& document,
                                       const dataset::RecordingInfo& recording, int threads) {
-  auto options = read_options<Options>(document);
-  options.threads = threads;
+  auto options = read_options<LidarOptions<Options>>(document);
+  options.odometry.threads = threads;
   const auto make = [&](const sensors::LidarProfile& profile, bool motion_compensated) {
-    return std::make_unique<Odometry>(options, profile, motion_compensated);
+    return std::make_unique<Odometry>(options.odometry, profile, motion_compensated);
   };
-  return std::make_unique<LidarEstimator>(make, recording);
+  auto odometry = std::make_unique<LidarEstimator>(make, recording);
+  if (!options.slam.use) return odometry;
+  return std::make_unique<SlamEstimator>(std::move(odometry), recording, options.slam);
 }
 
 template <typename Odometry, typename Options>
-constexpr Kind kLidarKind{settings_of<Options>, make_lidar<Odometry, Options>};
+constexpr Kind kLidarKind{settings_of<LidarOptions<Options>>, make_lidar<Odometry, Options>};
 
 template <typename Options>
 std::unique_ptr<Estimator> make_navigation(const config::Document& document,

@@ -20,12 +20,15 @@
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/digest.hpp"
 #include "traverse/mapping/keyframe_map.hpp"
+#include "traverse/mapping/map_origin.hpp"
 #include "traverse/mapping/voxel_map.hpp"
 #include "traverse/optimization/jacobian_audit.hpp"
 #include "traverse/pipeline/factor_kinds.hpp"
 #include "traverse/pipeline/frame_table.hpp"
+#include "traverse/slam/slam.hpp"
 
 #include "frame_recorder.hpp"
+#include "slam_results.hpp"
 #include "waiting_scans.hpp"
 
 namespace traverse::pipeline {
@@ -52,12 +55,14 @@ class Results {
   Results(const Estimator& estimator, const dataset::RecordingInfo& recording,
           const RunOptions& options, const RunFolder& folder)
       : estimator_(estimator),
+        recording_(recording),
         first_frame_(options.first),
         score_every_(recording.expected_scans / kMostScoredScans + 1),
         frames_(table_columns(estimator)),
         scorer_(estimator.points_are()),
         map_(options.map_voxel_m, options.most_map_points),
         keyframes_(mapping::KeyframeMapOptions{}),
+        closes_loops_(estimator.slam_map().has_value()),
         recorder_(folder.path, estimator) {}
 
   /// \param latest the estimator has given none after it
@@ -66,34 +71,59 @@ class Results {
     trajectory_.push_back(frame.stamp, frame.T_map_body);
     if (scan == nullptr) return;
     const bool sample = is_sample();
+    const std::size_t pose = trajectory_.size() - 1;
+    const bool scored = pose % score_every_ == 0;
+    const bool recorded = latest && recorder_.wants(pose, frame);
+    sensor_ = scan->sensor;
+    if (closes_loops_ && !sample && !scored && !recorded) return;
     const UsedScan used = estimator_.used_scan(*scan, frame, sample);
-    map_.insert(used.x, used.y, used.z, used.intensity, frame.T_map_body);
-    if (keyframes_.wants(frame.T_map_body)) {
-      keyframes_.add(frame.stamp, scan->sensor, used.x, used.y, used.z, used.intensity,
-                     frame.T_map_body);
-    }
-    if ((frames_.rows().size() - 1) % score_every_ == 0) {
-      scorer_.add(used.x, used.y, used.z, frame.T_map_body);
-    }
-    if (latest) recorder_.add(frames_.rows().size() - 1, frame, used);
+    if (!closes_loops_) add_to_maps(frame, used);
+    if (scored && closes_loops_) waiting_.add(pose, used);
+    if (scored && !closes_loops_) scorer_.add(used.x, used.y, used.z, frame.T_map_body);
+    if (recorded) recorder_.add(pose, frame, used);
     if (sample) {
       sample_ = used;
       sample_frame_ = first_frame_ + frames_.rows().size() - 1;
     }
   }
 
+  /// Once the last frame is in: the trajectory and the maps by what loops have taught.
+  void correct() {
+    const std::optional<SlamMap> slam_map = estimator_.slam_map();
+    if (!slam_map) return;
+    odometry_ = std::exchange(trajectory_, slam_map->corrected(trajectory_));
+    rebuild_maps(*slam_map, sensor_, map_, keyframes_);
+  }
+
+  /// The final poses of the frames.
   const geometry::Trajectory& trajectory() const { return trajectory_; }
+  /// Those by odometry alone, if loops were closed over it.
+  const std::optional<geometry::Trajectory>& odometry() const { return odometry_; }
   const FrameTable& frames() const { return frames_; }
   const mapping::VoxelMap& map() const { return map_; }
   const mapping::KeyframeMap& keyframes() const { return keyframes_; }
   const UsedScan& sample() const { return sample_; }
   std::size_t sample_frame() const { return sample_frame_; }
-  std::optional<evaluation::Consistency> consistency() { return scorer_.score(); }
-  dataset::PointCloud worst_frames(const evaluation::WorstSegments& worst) {
-    return recorder_.worst_frames(worst, first_frame_);
+  std::optional<evaluation::Consistency> consistency() {
+    return closes_loops_ ? waiting_.score(trajectory_, estimator_.points_are()) : scorer_.score();
+  }
+  std::optional<evaluation::Consistency> odometry_consistency() const {
+    return waiting_.score(*odometry_, estimator_.points_are());
+    /// How the worst frames were registered, under their final poses.
+    dataset::PointCloud worst_frames(const evaluation::WorstSegments& worst) {
+      return recorder_.worst_frames(worst, trajectory_, first_frame_);
+    }
   }
 
  private:
+  void add_to_maps(const PoseFrame& frame, const UsedScan& used) {
+    map_.insert(used.x, used.y, used.z, used.intensity, frame.T_map_body);
+    if (!keyframes_.wants(frame.T_map_body)) return;
+    const sensors::MountedSensor* lidar = recording_.rig.find(sensor_);
+    keyframes_.add(frame.stamp, sensor_, used.x, used.y, used.z, used.intensity, frame.T_map_body,
+                   lidar == nullptr ? Eigen::Vector3d::Zero() : lidar->T_body_sensor.translation);
+  }
+
   void add_row(const PoseFrame& frame) {
     std::vector<double> row{static_cast<double>(first_frame_ + frames_.rows().size()),
                             frame.stamp.seconds()};
@@ -110,6 +140,7 @@ class Results {
   }
 
   const Estimator& estimator_;
+  const dataset::RecordingInfo& recording_;  ///< of the source: a rawlog's rig grows in reading
   std::size_t first_frame_;
   std::size_t score_every_;
   geometry::Trajectory trajectory_;
@@ -117,7 +148,11 @@ class Results {
   evaluation::ConsistencyScorer scorer_;
   mapping::VoxelMap map_;
   mapping::KeyframeMap keyframes_;
+  bool closes_loops_;
   FrameRecorder recorder_;
+  std::optional<geometry::Trajectory> odometry_;
+  WaitingForScore waiting_;
+  std::string sensor_;
   UsedScan sample_;
   std::size_t sample_frame_ = 0;
 };
@@ -165,19 +200,25 @@ evaluation::EvaluationOptions evaluation_options(const dataset::RecordingInfo& r
   return options;
 }
 
-/// Accuracy against the reference if there is one, and the sharpness of the map in any case; and
-/// how the worst frames were registered.
-void evaluate_run(const dataset::Source& source, Results& results, const RunFolder& folder,
-                  RunRecord& record) {
-  evaluation::Evaluation evaluation = evaluation::evaluate(results.trajectory());
+evaluation::Evaluation evaluate_trajectory(const dataset::Source& source,
+                                           const geometry::Trajectory& trajectory,
+                                           RunRecord& record) {
   if (const auto& reference = source.reference()) {
     try {
-      evaluation = evaluation::evaluate(results.trajectory(), reference->T_map_body,
-                                        evaluation_options(source.info()));
+      return evaluation::evaluate(trajectory, reference->T_map_body,
+                                  evaluation_options(source.info()));
     } catch (const evaluation::EvaluationError& error) {
       record.evaluation_error = error.what();
     }
   }
+  return evaluation::evaluate(trajectory);
+}
+
+/// Accuracy against the reference if there is one, and the sharpness of the map in any case; how
+/// the worst frames were registered; accuracy of odometry alone if loops were closed over it.
+void evaluate_run(const dataset::Source& source, Results& results, const RunFolder& folder,
+                  RunRecord& record) {
+  evaluation::Evaluation evaluation = evaluate_trajectory(source, results.trajectory(), record);
   if (!record.north_map && evaluation.comparison && source.reference()->north_map) {
     record.north_map = evaluation.comparison->alignment.T_reference_estimate.rotation.transpose() *
                        *source.reference()->north_map;
@@ -187,6 +228,10 @@ void evaluate_run(const dataset::Source& source, Results& results, const RunFold
   const dataset::PointCloud worst_frames = results.worst_frames(
       evaluation::worst_segments(evaluation, results.frames().column("residual_rms_m")));
   if (worst_frames.size() > 0) dataset::write_ply(folder.worst_frames(), worst_frames);
+  if (!results.odometry()) return;
+  evaluation = evaluate_trajectory(source, *results.odometry(), record);
+  evaluation.consistency = results.odometry_consistency();
+  files::write_text(folder.odometry_evaluation(), evaluation::to_json(evaluation));
 }
 
 /// The Jacobians of the factors that the estimator solves with, checked in this very program.
@@ -210,6 +255,7 @@ void fill_results(const Results& results, RunRecord& record) {
 void write_results(const dataset::Source& source, const Results& results, const RunFolder& folder) {
   dataset::write_tum(folder.trajectory(), results.trajectory());
   if (source.reference()) dataset::write_tum(folder.reference(), source.reference()->T_map_body);
+  if (results.odometry()) dataset::write_tum(folder.odometry(), *results.odometry());
   results.frames().write_csv(folder.frames());
   if (results.map().size() > 0) {
     results.map().write_ply(folder.map_points());
@@ -271,8 +317,13 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
                                "range asked for");
     }
     observer.stage("maps and trajectory");
+    results.correct();
     fill_results(results, record);
     write_results(source, results, folder);
+    if (const auto slam_map = pipeline.estimator->slam_map()) {
+      slam::write_loops(folder.loops(), slam_map->slam().loops());
+      if (slam_map->origin()) mapping::write_map_origin(folder.origin(), *slam_map->origin());
+    }
     observer.stage("evaluation");
     evaluate_run(source, results, folder, record);
     check_jacobians(*pipeline.estimator, folder);

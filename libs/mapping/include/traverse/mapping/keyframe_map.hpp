@@ -6,6 +6,8 @@
 #include <span>
 #include <string>
 
+#include <Eigen/Core>
+
 #include "traverse/geometry/pose3.hpp"
 #include "traverse/geometry/stamp.hpp"
 
@@ -30,9 +32,11 @@ class KeyframeMap {
   bool wants(const geometry::Pose3& T_map_body) const;
 
   /// Adds a keyframe. Points in the body frame, metres; intensity 0..1, one a point or empty.
+  /// \param p_body_sensor where the rays to the points start, body frame
   void add(geometry::Stamp stamp, const std::string& sensor, std::span<const float> x,
            std::span<const float> y, std::span<const float> z, std::span<const float> intensity,
-           const geometry::Pose3& T_map_body);
+           const geometry::Pose3& T_map_body,
+           const Eigen::Vector3d& p_body_sensor = Eigen::Vector3d::Zero());
 
   std::size_t size() const;
 

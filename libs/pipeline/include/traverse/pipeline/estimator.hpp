@@ -10,6 +10,7 @@
 #include "traverse/geometry/pose3.hpp"
 #include "traverse/geometry/stamp.hpp"
 #include "traverse/optimization/factor_kind.hpp"
+#include "traverse/pipeline/slam_map.hpp"
 #include "traverse/sensors/measurement.hpp"
 
 namespace traverse::pipeline {
@@ -76,6 +77,10 @@ class Estimator {
 
   /// The factors that it solves with, if it does; a run checks their Jacobians.
   virtual std::vector<optimization::FactorUse> factors() const { return {}; }
+
+  /// What became of the frames once loops were closed over them, if it closes loops. Complete after
+  /// finish(). Frames are told by odometry alone, which loops do not disturb.
+  virtual std::optional<SlamMap> slam_map() const { return std::nullopt; }
 
   /// An independent copy: fed the same measurements, both give the same bits (wall times aside).
   virtual std::unique_ptr<Estimator> clone() const = 0;

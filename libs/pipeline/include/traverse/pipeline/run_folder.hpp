@@ -11,10 +11,17 @@ struct RunFolder {
 
   std::filesystem::path record() const { return path / "run.json"; }
   std::filesystem::path trajectory() const { return path / "trajectory.tum"; }
+  /// The raw poses of the odometry that loops were closed over, and their evaluation.
+  std::filesystem::path odometry() const { return path / "odometry.tum"; }
+  std::filesystem::path odometry_evaluation() const { return path / "odometry_evaluation.json"; }
+  std::filesystem::path loops() const { return path / "loops.csv"; }
+  std::filesystem::path keyframes() const { return path / "keyframes.simplemap"; }
   std::filesystem::path reference() const { return path / "reference.tum"; }
   std::filesystem::path frames() const { return path / "frames.csv"; }
   std::filesystem::path map_points() const { return path / "map.ply"; }
   std::filesystem::path simple_map() const { return path / "map.simplemap"; }
+  /// Where on earth the map is, if its frame is ENU.
+  std::filesystem::path origin() const { return path / "origin.json"; }
   /// One scan of the run with the feature class of each point.
   std::filesystem::path sample_scan() const { return path / "scan.ply"; }
   /// How a frame of each worst segment was registered: its scan and its matches.

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "traverse/mapping/map_keyframe.hpp"
+
+namespace traverse::mapping {
+
+/// A map as points, of each voxel the first one, with what is known of each.
+struct MapPoints {
+  std::vector<float> x, y, z;           ///< metres, map frame
+  std::vector<float> intensity;         ///< 0 .. 1
+  std::vector<double> time;             ///< stamp of the keyframe that saw it, seconds
+  std::vector<std::uint32_t> keyframe;  ///< number of that keyframe, from 0
+
+  std::size_t size() const { return x.size(); }
+};
+
+/// \param voxel_m of the points in a cube of this edge the first is kept
+MapPoints map_points(std::span<const MapKeyframe> keyframes, double voxel_m);
+
+/// As binary PLY: x, y, z, intensity, and with attributes also time (double) and keyframe (uint).
+/// \throws files::OutputError
+void write_ply(const std::filesystem::path& file, const MapPoints& points, bool with_attributes);
+
+}  // namespace traverse::mapping

@@ -1,0 +1,94 @@
+#include "traverse/mapping/map_keyframe.hpp"
+
+#include <exception>
+
+#include <Eigen/Dense>
+#include <fmt/core.h>
+#include <mrpt/maps/CPointsMapXYZI.h>
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/poses/CPose3DPDF.h>
+
+#include "traverse/files/input_error.hpp"
+
+#include "mrpt_values.hpp"
+
+namespace traverse::mapping {
+
+namespace {
+
+void append(const mrpt::maps::CPointsMap& points, const geometry::Pose3& T_body_points,
+            MapKeyframe& keyframe) {
+  const auto* with_intensity = dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Eigen::Vector3d p;
+    points.getPoint(i, p.x(), p.y(), p.z());
+    p = T_body_points * p;
+    keyframe.x.push_back(static_cast<float>(p.x()));
+    keyframe.y.push_back(static_cast<float>(p.y()));
+    keyframe.z.push_back(static_cast<float>(p.z()));
+    keyframe.intensity.push_back(with_intensity == nullptr ? 0
+                                                           : with_intensity->getPointIntensity(i));
+  }
+}
+
+void append(const mrpt::obs::CObservation& observation, MapKeyframe& keyframe) {
+  keyframe.sensor = observation.sensorLabel;
+  if (const auto stamp = dataset::to_stamp(observation.timestamp)) keyframe.stamp = *stamp;
+  mrpt::poses::CPose3D T_body_sensor;
+  observation.getSensorPose(T_body_sensor);
+  keyframe.p_body_sensor = dataset::to_pose(T_body_sensor).translation;
+  if (const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation)) {
+    if (cloud->pointcloud != nullptr) {
+      append(*cloud->pointcloud, dataset::to_pose(T_body_sensor), keyframe);
+    }
+    return;
+  }
+  mrpt::maps::CPointsMapXYZI points;  // of any other kind: as MRPT itself makes points of it
+  points.insertionOptions.minDistBetweenLaserPoints = 0;
+  if (observation.insertObservationInto(points)) append(points, {}, keyframe);
+}
+
+}  // namespace
+
+void MapKeyframe::keep_only(const std::vector<char>& keep) {
+  const auto reduce = [&](std::vector<float>& values) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (keep[i] != 0) values[kept++] = values[i];
+    }
+    values.resize(kept);
+  };
+  for (auto* values : {&x, &y, &z, &intensity}) reduce(*values);
+}
+
+std::vector<MapKeyframe> read_simple_map(const std::filesystem::path& file) {
+  const auto error = [&](std::string found) {
+    return files::InputError(file, files::Place::whole_file(), "a simple map of MRPT with points",
+                             std::move(found));
+  };
+  mrpt::maps::CSimpleMap map;
+  try {
+    if (!map.loadFromFile(file.string())) throw error("something else");
+  } catch (const files::InputError&) {
+    throw;
+  } catch (const std::exception& of_mrpt) {
+    throw error(dataset::message_of(of_mrpt));
+  }
+  std::vector<MapKeyframe> keyframes;
+  std::size_t points = 0;
+  for (std::size_t k = 0; k < map.size(); ++k) {
+    mrpt::poses::CPose3DPDF::Ptr pose;
+    mrpt::obs::CSensoryFrame::Ptr frame;
+    map.get(k, pose, frame);
+    MapKeyframe& keyframe = keyframes.emplace_back();
+    keyframe.T_map_body = dataset::to_pose(pose->getMeanVal()).orthonormalised();
+    for (const auto& observation : *frame) append(*observation, keyframe);
+    points += keyframe.size();
+  }
+  if (points == 0) throw error(fmt::format("{} keyframes without a point", keyframes.size()));
+  return keyframes;
+}
+
+}  // namespace traverse::mapping

@@ -1,0 +1,157 @@
+#include "slam_estimator.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+namespace traverse::pipeline {
+
+namespace {
+
+constexpr double kUnknownAltitude_m = 1000;  // standard deviation
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
+}
+
+}  // namespace
+
+void bind(config::Binder& b, SlamEstimatorOptions& o) {
+  using config::Range;
+  b.flag("use", o.use, "close loops; off: odometry alone");
+  b.group("gnss", "fixes of the recording's first receiver", [&](config::Binder& g) {
+    g.flag("use", o.gnss.use, "let fixes hold the map, where there are any");
+    g.number("sigma_m", o.gnss.sigma_m, Range::positive(),
+             "of a fix that does not tell its covariance");
+    g.number("least_sigma_m", o.gnss.least_sigma_m, Range::positive(), "believed of any fix");
+  });
+  bind(b, o.slam);
+}
+
+SlamEstimator::SlamEstimator(std::unique_ptr<LidarEstimator> odometry,
+                             const dataset::RecordingInfo& recording,
+                             const SlamEstimatorOptions& options)
+    : gnss_(options.gnss),
+      odometry_(std::move(odometry)),
+      slam_(options.slam, *odometry_->sensor().lidar),
+      columns_(odometry_->columns()) {
+  columns_.insert(columns_.end(), {"keyframe", "loops", "slam_ms"});
+  const auto* receiver = recording.rig.first(sensors::SensorKind::kGnss);
+  if (!gnss_.use || receiver == nullptr) return;
+  receiver_ = receiver->label;
+  antenna_lidar_ =
+      odometry_->sensor().T_body_sensor.inverse() * receiver->T_body_sensor.translation;
+}
+
+SlamEstimator::SlamEstimator(const SlamEstimator& other)
+    : gnss_(other.gnss_),
+      receiver_(other.receiver_),
+      antenna_lidar_(other.antenna_lidar_),
+      plane_(other.plane_),
+      fixes_(other.fixes_),
+      last_frame_(other.last_frame_),
+      odometry_(other.odometry_->copy()),
+      slam_(other.slam_),
+      columns_(other.columns_),
+      waiting_(other.waiting_) {}
+
+std::unique_ptr<Estimator> SlamEstimator::clone() const {
+  return std::unique_ptr<Estimator>(new SlamEstimator(*this));
+}
+
+std::vector<PoseFrame> SlamEstimator::process(const sensors::Measurement& measurement) {
+  if (const auto* fix = std::get_if<sensors::GnssFix>(&measurement)) take(*fix);
+  const auto* scan = std::get_if<std::shared_ptr<const sensors::LidarScan>>(&measurement);
+  if (scan != nullptr && (*scan)->sensor == odometry_->sensor().label) waiting_.push_back(*scan);
+  return close_loops(odometry_->process(measurement));
+}
+
+std::vector<PoseFrame> SlamEstimator::finish() {
+  std::vector<PoseFrame> frames = close_loops(odometry_->finish());
+  slam_.finish();
+  return frames;
+}
+
+std::vector<PoseFrame> SlamEstimator::close_loops(std::vector<PoseFrame> frames) {
+  const std::vector<lidar::Frame>& latest = odometry_->latest();
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const auto started = std::chrono::steady_clock::now();
+    const std::shared_ptr<const sensors::LidarScan> scan = std::move(waiting_.front());
+    waiting_.pop_front();
+    const std::size_t loops_before = slam_.loops().size();
+    const bool wanted = slam_.wants(latest[k]);
+    if (wanted) {
+      const auto points = odometry_->odometry().used_scan(*scan, latest[k].velocity, false);
+      slam_.add(latest[k], *scan, points, odometry_->odometry().deskew_note() == "on");
+    }
+    place_fixes(latest[k]);
+    const double milliseconds = milliseconds_since(started);
+    frames[k].record.push_back(wanted ? 1 : 0);
+    frames[k].record.push_back(static_cast<double>(slam_.loops().size() - loops_before));
+    frames[k].record.push_back(milliseconds);
+    frames[k].milliseconds += milliseconds;
+  }
+  return frames;
+}
+
+void SlamEstimator::take(const sensors::GnssFix& fix) {
+  if (receiver_.empty() || fix.sensor != receiver_) return;
+  // Fixes before the first keyframe have nothing to hold.
+  if (slam_.keyframes().size() > 0) fixes_.push_back(fix);
+}
+
+/// Fixes come between frames: each counts for the latest keyframe, whose antenna odometry carries
+/// to where it was at the moment of the fix.
+void SlamEstimator::place_fixes(const lidar::Frame& frame) {
+  while (!fixes_.empty() && fixes_.front().stamp <= frame.stamp) {
+    const sensors::GnssFix fix = fixes_.front();
+    fixes_.pop_front();
+    if (!last_frame_ || fix.stamp < last_frame_->stamp) continue;
+    const double share = geometry::seconds_between(last_frame_->stamp, fix.stamp) /
+                         geometry::seconds_between(last_frame_->stamp, frame.stamp);
+    place(fix, geometry::interpolate(last_frame_->T_map_lidar, frame.T_map_lidar, share));
+  }
+  last_frame_ = frame;
+}
+
+void SlamEstimator::place(const sensors::GnssFix& fix, const geometry::Pose3& T_odom_lidar) {
+  const bool has_altitude = std::isfinite(fix.altitude_m);
+  const geodesy::Geodetic place{fix.latitude_deg, fix.longitude_deg,
+                                has_altitude ? fix.altitude_m : 0};
+  if (!plane_) plane_.emplace(place);
+  Eigen::Matrix3d covariance = fix.covariance_enu.value_or(
+      Eigen::Matrix3d(gnss_.sigma_m * gnss_.sigma_m * Eigen::Matrix3d::Identity()));
+  covariance.diagonal().array() += gnss_.least_sigma_m * gnss_.least_sigma_m;
+  if (!has_altitude) covariance(2, 2) += kUnknownAltitude_m * kUnknownAltitude_m;
+  const geometry::Pose3 T_keyframe_lidar =
+      slam_.chain().T_odom_lidar(slam_.keyframes().size() - 1).inverse() * T_odom_lidar;
+  slam_.add_gnss(plane_->to_enu(place), covariance, T_keyframe_lidar * antenna_lidar_);
+}
+
+std::vector<Decision> SlamEstimator::decisions() const {
+  std::vector<Decision> decisions = odometry_->decisions();
+  decisions.push_back(
+      {"loops", fmt::format("{} of {} candidates accepted, {} keyframes", slam_.accepted_loops(),
+                            slam_.loops().size(), slam_.keyframes().size())});
+  if (slam_.graph().is_georeferenced()) {
+    const geodesy::Geodetic& origin = plane_->origin();
+    decisions.push_back(
+        {"map frame", fmt::format("ENU, origin {:.9f} deg N, {:.9f} deg E, {:.3f} m; {} fixes",
+                                  origin.latitude_deg, origin.longitude_deg, origin.altitude_m,
+                                  slam_.graph().fixes().size())});
+  }
+  return decisions;
+}
+
+std::vector<optimization::FactorUse> SlamEstimator::factors() const {
+  std::vector<optimization::FactorUse> factors = odometry_->factors();
+  const auto of_graph = slam_.graph_factors();
+  factors.insert(factors.end(), of_graph.begin(), of_graph.end());
+  return factors;
+}
+
+}  // namespace traverse::pipeline

@@ -1,0 +1,20 @@
+#include "traverse/pose_graph/graph_options.hpp"
+
+namespace traverse::pose_graph {
+
+void bind(config::Binder& b, GraphOptions& o) {
+  using config::Range;
+  b.flag("robust", o.robust, "loops and fixes that contradict the rest lose their weight");
+  b.number("outlier_probability", o.outlier_probability, Range::between(1e-6, 0.5),
+           "of a consistent loop to be taken for a false one: where its weight begins to fall");
+  b.number("graduation", o.graduation, Range::between(1.4, 100),
+           "factor by which that bound shrinks a stage, from the largest residual on");
+  b.integer("steps_a_stage", o.steps_a_stage, Range::between(1, 100),
+            "Levenberg-Marquardt steps in a stage");
+  b.integer("most_iterations", o.most_iterations, Range::between(1, 1000),
+            "Levenberg-Marquardt steps of the last stage");
+  b.number("least_fix_spread", o.least_fix_spread, Range::between(1, 1e6),
+           "GNSS fixes orient the map when their spread is so many of their standard deviations");
+}
+
+}  // namespace traverse::pose_graph

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace traverse::slam {
+
+/// Points of a space of few dimensions, found by nearness: ring keys of scans, positions of
+/// keyframes. A forest of k-d trees whose sizes are powers of two (nanoflann's dynamic index;
+/// Bentley and Saxe's logarithmic method), so that both adding and finding stay logarithmic on the
+/// mean.
+class PlaceIndex {
+ public:
+  explicit PlaceIndex(std::size_t dimensions);
+  PlaceIndex(const PlaceIndex& other);
+  PlaceIndex& operator=(const PlaceIndex& other);
+  PlaceIndex(PlaceIndex&&) noexcept;
+  PlaceIndex& operator=(PlaceIndex&&) noexcept;
+  ~PlaceIndex();
+
+  /// The number of the new place is the size before. \throws std::invalid_argument for another
+  /// number of dimensions
+  void add(std::span<const float> place);
+
+  std::size_t size() const;
+
+  struct Found {
+    std::size_t number = 0;
+    double distance = 0;
+  };
+  /// Up to `most` places, nearest first; of equally near ones the earlier first.
+  std::vector<Found> nearest(std::span<const float> place, std::size_t most) const;
+
+ private:
+  struct Forest;
+  std::size_t dimensions_;
+  std::unique_ptr<Forest> forest_;
+};
+
+}  // namespace traverse::slam

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+#include "traverse/config/binder.hpp"
+#include "traverse/geometry/pose3.hpp"
+#include "traverse/lidar/voxel/voxel_map.hpp"
+#include "traverse/slam/keyframe.hpp"
+
+namespace traverse::slam {
+
+/// The voxel map of planes and lines that some keyframes make, in the lidar frame of one of them.
+struct Submap {
+  std::size_t centre = 0;  ///< id of the keyframe whose frame it is
+  std::size_t first = 0;   ///< the keyframes it is made of, both included
+  std::size_t last = 0;
+  lidar::voxel::VoxelMap map;
+};
+
+struct SubmapOptions {
+  int keyframes_before = 6;  ///< of the submap's centre
+  int keyframes_after = 6;
+  lidar::voxel::VoxelMapOptions map;
+};
+void bind(config::Binder& binder, SubmapOptions& options);
+
+/// A keyframe and where it stands in the frame of the submap's centre.
+struct PlacedKeyframe {
+  std::shared_ptr<const Keyframe> keyframe;
+  geometry::Pose3 T_centre_lidar;
+};
+
+/// \param keyframes in order of their ids, not empty
+Submap make_submap(std::size_t centre, std::span<const PlacedKeyframe> keyframes,
+                   const lidar::voxel::VoxelMapOptions& options);
+
+}  // namespace traverse::slam

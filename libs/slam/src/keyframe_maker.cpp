@@ -1,0 +1,159 @@
+#include "traverse/slam/keyframe_maker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <tsl/robin_set.h>
+#include <utility>
+
+#include "traverse/geometry/so3.hpp"
+#include "traverse/geometry/voxel.hpp"
+#include "traverse/lidar/voxel/local_points.hpp"
+
+#include "voxel/workers.hpp"
+
+namespace traverse::slam {
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kLeastEigenvalue = 1e-4;  // of a match: below, a direction is not determined
+constexpr double kLeastResidual_m = 0.01;  // a perfect fit would mean perfect knowledge
+
+std::size_t matches_of(const lidar::RegistrationHealth& health) {
+  return health.line_matches + health.plane_matches;
+}
+
+double weakest_information(const lidar::RegistrationHealth& health) {
+  return health.observability.eigenvalues[0] * static_cast<double>(matches_of(health));
+}
+
+KeyframePoints thinned(const sensors::LidarScan& scan, const lidar::CorrectedScan& used,
+                       double intensity_full_scale, double cube_m) {
+  KeyframePoints points;
+  tsl::robin_set<std::uint64_t, geometry::VoxelHash> occupied;
+  const auto intensity_scale = static_cast<float>(1 / intensity_full_scale);
+  for (std::size_t i = 0; i < used.x.size(); ++i) {
+    const Eigen::Vector3d p(used.x[i], used.y[i], used.z[i]);
+    if (!occupied.insert(geometry::voxel_key(p, cube_m)).second) continue;
+    points.x.push_back(used.x[i]);
+    points.y.push_back(used.y[i]);
+    points.z.push_back(used.z[i]);
+    const std::uint32_t source = used.source[i];
+    if (!scan.intensity.empty()) {
+      points.intensity.push_back(scan.intensity[source] * intensity_scale);
+    }
+    if (!scan.time.empty()) points.time.push_back(scan.time[source]);
+    if (!scan.ring.empty()) points.ring.push_back(scan.ring[source]);
+  }
+  return points;
+}
+
+void deskew(lidar::voxel::SweepPoints& points, const geometry::Twist& velocity) {
+  const lidar::voxel::SweepMotion motion(velocity);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    motion.apply(points.time[i], points.x[i], points.y[i], points.z[i]);
+    points.time[i] = 0;
+  }
+}
+
+}  // namespace
+
+void bind(config::Binder& b, StepNoiseOptions& o) {
+  using config::Range;
+  b.number("inflation", o.inflation, Range::positive(),
+           "of the covariance from the solver's information");
+  b.number("drift_m_per_sqrt_m", o.drift_m_per_sqrt_m, Range::positive(),
+           "a random walk beside it, by the way gone");
+  b.number("drift_deg_per_sqrt_m", o.drift_deg_per_sqrt_m, Range::positive(),
+           "a random walk of the attitude");
+  b.number("unregistered_m", o.unregistered_m, Range::non_negative(),
+           "more for every frame whose pose is only predicted");
+  b.number("unregistered_deg", o.unregistered_deg, Range::non_negative(), "the same of attitude");
+}
+
+void bind(config::Binder& b, KeyframeOptions& o) {
+  using config::Range;
+  b.number("spacing_m", o.spacing_m, Range::positive(), "a keyframe after so much motion");
+  b.number("spacing_deg", o.spacing_deg, Range::positive(), "or so much rotation");
+  b.number("cube_m", o.cube_m, Range::positive(), "of its map points one a cube is kept");
+  b.group("noise", "of the motion between keyframes", [&](config::Binder& g) { bind(g, o.noise); });
+  b.group("sampling", "points that keyframes are registered by",
+          [&](config::Binder& g) { bind(g, o.sampling); });
+}
+
+KeyframeMaker::KeyframeMaker(const KeyframeOptions& options, const sensors::LidarProfile& profile)
+    : options_(options), profile_(profile) {}
+
+bool KeyframeMaker::observe(const lidar::Frame& frame) {
+  if (made_ == 0) return true;
+  if (!frame.health.registered) {
+    ++unregistered_;
+  } else if (!weakest_ || weakest_information(frame.health) < weakest_information(*weakest_)) {
+    weakest_ = frame.health;
+  }
+  const geometry::Pose3 motion = T_odom_last_.inverse() * frame.T_map_lidar;
+  return motion.translation.norm() >= options_.spacing_m ||
+         geometry::angle_of(motion.rotation) >= options_.spacing_deg * kDegree;
+}
+
+Keyframe KeyframeMaker::make(const lidar::Frame& frame, const sensors::LidarScan& scan,
+                             const lidar::CorrectedScan& points, bool deskewed_by_velocity) {
+  lidar::voxel::Workers alone(1);
+  Keyframe keyframe;
+  keyframe.id = made_++;
+  keyframe.stamp = frame.stamp;
+  keyframe.T_odom_lidar = frame.T_map_lidar;
+  keyframe.points = thinned(scan, points, profile_.intensity_full_scale, options_.cube_m);
+  keyframe.features = deskewed(sample_sweep(scan, profile_, options_.sampling, alone),
+                               deskewed_by_velocity ? frame.velocity : geometry::Twist::Zero());
+  keyframe.health = frame.health;
+  if (keyframe.id > 0) {
+    keyframe.step_covariance = step_covariance(T_odom_last_.inverse() * frame.T_map_lidar);
+  }
+  T_odom_last_ = frame.T_map_lidar;
+  weakest_.reset();
+  unregistered_ = 0;
+  return keyframe;
+}
+
+geometry::Matrix6 KeyframeMaker::step_covariance(const geometry::Pose3& T_i_j) const {
+  const StepNoiseOptions& noise = options_.noise;
+  const double way_m = std::max(T_i_j.translation.norm(), 0.1 * options_.spacing_m);
+  const double turn = noise.drift_deg_per_sqrt_m * kDegree * std::sqrt(way_m);
+  const double shift = noise.drift_m_per_sqrt_m * std::sqrt(way_m);
+  geometry::Matrix6 covariance = geometry::Matrix6::Zero();
+  covariance.diagonal().head<3>().setConstant(turn * turn);
+  covariance.diagonal().tail<3>().setConstant(shift * shift);
+  if (weakest_) covariance += noise.inflation * registration_covariance(*weakest_);
+  const double lost_turn = noise.unregistered_deg * kDegree * unregistered_;
+  const double lost_shift = noise.unregistered_m * unregistered_;
+  covariance.diagonal().head<3>().array() += lost_turn * lost_turn;
+  covariance.diagonal().tail<3>().array() += lost_shift * lost_shift;
+  // The translation of a step is told in the axes of the keyframe before.
+  geometry::Matrix6 axes = geometry::Matrix6::Identity();
+  axes.bottomRightCorner<3, 3>() = T_i_j.rotation;
+  return axes * covariance * axes.transpose();
+}
+
+geometry::Matrix6 registration_covariance(const lidar::RegistrationHealth& health) {
+  const lidar::Observability& seen = health.observability;
+  const double residual_m = std::max(health.residual_rms_m, kLeastResidual_m);
+  const auto count = static_cast<double>(std::max<std::size_t>(matches_of(health), 1));
+  const geometry::Twist inverse = seen.eigenvalues.cwiseMax(kLeastEigenvalue).cwiseInverse();
+  geometry::Matrix6 covariance =
+      seen.directions * inverse.asDiagonal() * seen.directions.transpose();
+  covariance *= residual_m * residual_m / count;
+  covariance.topRows<3>() /= seen.rotation_scale_m;
+  covariance.leftCols<3>() /= seen.rotation_scale_m;
+  return covariance;
+}
+
+lidar::voxel::SweepSample deskewed(lidar::voxel::SweepSample sample,
+                                   const geometry::Twist& velocity) {
+  for (auto* points : {&sample.surface, &sample.planar, &sample.edges}) deskew(*points, velocity);
+  return sample;
+}
+
+}  // namespace traverse::slam

@@ -1,0 +1,80 @@
+#include "traverse/slam/loop_candidates.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace traverse::slam {
+
+namespace {
+
+std::array<float, 3> as_place(const Eigen::Vector3d& p) {
+  return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+}
+
+}  // namespace
+
+void bind(config::Binder& b, CandidateOptions& o) {
+  using config::Range;
+  b.number("least_way_m", o.least_way_m, Range::positive(),
+           "driven since; nearer keyframes are the present surroundings");
+  b.number("reach_m", o.reach_m, Range::positive(), "keyframes farther apart make no loop");
+  b.number("sigmas", o.sigmas, Range::non_negative(),
+           "of the predicted position that reach_m grows by");
+  b.integer("ring_keys", o.ring_keys, Range::between(1, 1000),
+            "nearest ring keys whose Scan Contexts are compared");
+  b.number("most_descriptor_distance", o.most_descriptor_distance, Range::between(0, 1),
+           "of two Scan Contexts that look like one place");
+  b.group("context", "the Scan Context of a keyframe",
+          [&](config::Binder& g) { bind(g, o.context); });
+}
+
+LoopCandidates::LoopCandidates(const CandidateOptions& options)
+    : options_(options),
+      ring_keys_(static_cast<std::size_t>(options.context.rings)),
+      positions_(3) {}
+
+void LoopCandidates::add(ScanContext context, double way_m, const Eigen::Vector3d& p_map) {
+  contexts_.push_back(std::move(context));
+  way_m_.push_back(way_m);
+  p_map_.push_back(p_map);
+  let_find(way_m);
+}
+
+void LoopCandidates::let_find(double way_m) {
+  while (findable() < contexts_.size() && way_m_[findable()] + options_.least_way_m <= way_m) {
+    ring_keys_.add(contexts_[findable()].ring_key());
+    positions_.add(as_place(p_map_[findable()]));
+  }
+}
+
+std::optional<Candidate> LoopCandidates::by_position(const Eigen::Vector3d& p_map,
+                                                     double reach_m) const {
+  const auto nearest = positions_.nearest(as_place(p_map), 1);
+  if (nearest.empty() || nearest.front().distance > reach_m) return std::nullopt;
+  return Candidate{nearest.front().number, 1, 0};
+}
+
+std::vector<Candidate> LoopCandidates::by_appearance(const ScanContext& context) const {
+  std::vector<Candidate> candidates;
+  for (const auto& found :
+       ring_keys_.nearest(context.ring_key(), static_cast<std::size_t>(options_.ring_keys))) {
+    const auto match = ScanContext::compare(contexts_[found.number], context);
+    if (match.distance > options_.most_descriptor_distance) continue;
+    candidates.push_back({found.number, match.distance, match.turn_rad});
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) {
+                     return a.descriptor_distance < b.descriptor_distance;
+                   });
+  return candidates;
+}
+
+void LoopCandidates::move(const std::vector<Eigen::Vector3d>& p_map) {
+  p_map_ = p_map;
+  const std::size_t count = findable();
+  positions_ = PlaceIndex(3);
+  for (std::size_t i = 0; i < count; ++i) positions_.add(as_place(p_map_[i]));
+}
+
+}  // namespace traverse::slam

@@ -1,0 +1,129 @@
+#include "traverse/slam/loop_registration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "traverse/geometry/so3.hpp"
+
+#include "voxel/workers.hpp"
+
+namespace traverse::slam {
+
+namespace {
+
+using lidar::voxel::Alignment;
+using lidar::voxel::AlignmentOptions;
+using lidar::voxel::Effort;
+
+constexpr Effort kMuchEffort{6, 2};
+constexpr double kDegree = std::numbers::pi / 180;
+
+std::size_t support_of(const Alignment& found) {
+  return found.health.registered ? found.standing_planes + 2 * found.health.line_matches : 0;
+}
+
+/// Two rounds with a wide gate: enough to tell a start that falls into place.
+AlignmentOptions brief(AlignmentOptions options) {
+  options.rounds = 2;
+  return options;
+}
+
+/// One more round with a gate so narrow that only points on their surfaces match.
+AlignmentOptions on_surfaces(AlignmentOptions options, double gate_m) {
+  options.rounds = 1;
+  options.gate_m = gate_m;
+  options.narrow_gate_m = gate_m;
+  return options;
+}
+
+}  // namespace
+
+void bind(config::Binder& b, LoopRegistrationOptions& o) {
+  using config::Range;
+  b.group("alignment", "of a keyframe in a submap",
+          [&](config::Binder& g) { bind(g, o.alignment); });
+  b.number("start_spacing_m", o.start_spacing_m, Range::positive(),
+           "between the starts of the search");
+  b.number("start_spacing_deg", o.start_spacing_deg, Range::positive(), "between their headings");
+  b.integer("most_starts", o.most_starts, Range::between(1, 1e6), "of one registration");
+  b.number("on_surface_m", o.on_surface_m, Range::positive(),
+           "a point so near a plane or line lies on it");
+}
+
+std::vector<geometry::Pose3> starts_around(const geometry::Pose3& guess, const SearchRegion& region,
+                                           const LoopRegistrationOptions& options) {
+  const int headings = static_cast<int>(
+      std::ceil(region.half_turn_rad / (options.start_spacing_deg * kDegree) - 0.5));
+  const int turns = std::max(0, headings);
+  double spacing_m = options.start_spacing_m;
+  const auto side_of = [&] {
+    return std::max(0, static_cast<int>(std::ceil(region.radius_m / spacing_m - 0.5)));
+  };
+  while (3 * side_of() * side_of() * (2 * turns + 1) > options.most_starts) spacing_m *= 1.2;
+
+  struct Start {
+    double distance;
+    geometry::Pose3 pose;
+  };
+  std::vector<Start> starts;
+  const int side = side_of();
+  for (int ix = -side; ix <= side; ++ix) {
+    for (int iy = -side; iy <= side; ++iy) {
+      const Eigen::Vector3d shift(ix * spacing_m, iy * spacing_m, 0);
+      if (shift.norm() > region.radius_m + 0.5 * spacing_m) continue;
+      for (int turn = -turns; turn <= turns; ++turn) {
+        geometry::Pose3 offset;
+        const double angle = turn * options.start_spacing_deg * kDegree;
+        offset.rotation = geometry::exp_so3(Eigen::Vector3d(0, 0, angle));
+        offset.translation = shift;
+        starts.push_back({shift.norm() + std::abs(turn) * 1e-3, guess * offset});
+      }
+    }
+  }
+  std::stable_sort(starts.begin(), starts.end(),
+                   [](const Start& a, const Start& b) { return a.distance < b.distance; });
+  std::vector<geometry::Pose3> poses;
+  poses.reserve(starts.size());
+  for (const Start& start : starts) poses.push_back(start.pose);
+  return poses;
+}
+
+LoopRegistration register_in(const Submap& submap, const lidar::voxel::SweepSample& features,
+                             std::span<const geometry::Pose3> starts_centre_lidar,
+                             const LoopRegistrationOptions& options) {
+  lidar::voxel::Workers alone(1);
+  lidar::StageTimes ignored;
+  const lidar::voxel::MotionModel standing{{}, 1, false};  // keyframes are deskewed
+  const auto align_from = [&](const geometry::Pose3& start, const AlignmentOptions& how,
+                              const Effort& effort) {
+    return align(features, submap.map, standing, start, how, effort, alone, ignored);
+  };
+
+  geometry::Pose3 best = starts_centre_lidar.front();
+  if (starts_centre_lidar.size() > 1) {
+    std::size_t most = 0;
+    for (const geometry::Pose3& start : starts_centre_lidar) {
+      const Alignment tried = align_from(start, brief(options.alignment), {0, 2});
+      const std::size_t support = support_of(tried);
+      if (support <= most) continue;
+      most = support;
+      best = tried.T_map_lidar;
+    }
+  }
+  const Alignment found = align_from(best, options.alignment, kMuchEffort);
+  LoopRegistration result;
+  result.T_centre_lidar = found.T_map_lidar.orthonormalised();
+  result.health = found.health;
+  result.support = support_of(found);
+  if (!found.health.registered) return result;
+
+  const Alignment check =
+      align_from(found.T_map_lidar, on_surfaces(options.alignment, options.on_surface_m), Effort{});
+  const std::size_t points = features.planar.size() + features.edges.size();
+  const std::size_t matches = check.health.plane_matches + check.health.line_matches;
+  result.overlap = points == 0 ? 0 : static_cast<double>(matches) / static_cast<double>(points);
+  return result;
+}
+
+}  // namespace traverse::slam

@@ -1,0 +1,90 @@
+#include "traverse/mapping/map_keyframe.hpp"
+
+#include <fstream>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+
+#include "traverse/files/input_error.hpp"
+#include "traverse/mapping/keyframe_map.hpp"
+
+#include "geometry/random_motion.hpp"
+#include "temporary_folder.hpp"
+
+namespace traverse::mapping {
+namespace {
+
+TEST(ReadSimpleMap, ReadsBackWhatAKeyframeMapWrote) {
+  const testing::TemporaryFolder folder;
+  testing::RandomMotion random(1);
+  const geometry::Pose3 T_map_body = random.pose(1, 100);
+  const std::vector<float> x{1, 2, 3}, y{-4, 5, 6}, z{0.5F, 0.25F, 8};
+  const std::vector<float> intensity{0.1F, 0.2F, 0.3F};
+  const Eigen::Vector3d p_body_sensor(0.5, 0, 1.75);
+  KeyframeMap map(KeyframeMapOptions{});
+  map.add(geometry::Stamp::from_seconds(1.3e9), "top", x, y, z, intensity, T_map_body,
+          p_body_sensor);
+  map.write(folder / "map.simplemap");
+
+  const auto keyframes = read_simple_map(folder / "map.simplemap");
+  ASSERT_EQ(keyframes.size(), 1U);
+  const MapKeyframe& read = keyframes[0];
+  EXPECT_EQ(read.stamp, geometry::Stamp::from_seconds(1.3e9));
+  EXPECT_EQ(read.sensor, "top");
+  EXPECT_LT((read.T_map_body.matrix() - T_map_body.matrix()).norm(), 1e-12);
+  EXPECT_EQ(read.p_body_sensor, p_body_sensor);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(read.x[i], x[i], 1e-5);
+    EXPECT_NEAR(read.y[i], y[i], 1e-5);
+    EXPECT_NEAR(read.z[i], z[i], 1e-5);
+    EXPECT_EQ(read.intensity[i], intensity[i]);
+  }
+}
+
+TEST(ReadSimpleMap, TakesWhatOtherProgramsOfMrptPutIntoOne) {
+  const testing::TemporaryFolder folder;
+  auto scan = mrpt::obs::CObservation2DRangeScan::Create();
+  scan->aperture = 3.14F;
+  scan->maxRange = 20;
+  scan->sensorPose = mrpt::poses::CPose3D(0.2, 0, 0.4, 0, 0, 0);
+  const std::vector<float> ranges{2, 3, 4};
+  const std::vector<char> valid{1, 0, 1};
+  scan->loadFromVectors(ranges.size(), ranges.data(), valid.data());
+  auto frame = mrpt::obs::CSensoryFrame::Create();
+  frame->insert(scan);
+  mrpt::maps::CSimpleMap map;
+  const mrpt::poses::CPose3DPDF::Ptr pose = mrpt::poses::CPose3DPDFGaussian::Create();
+  map.insert(pose, frame);
+  ASSERT_TRUE(map.saveToFile((folder / "plane.simplemap").string()));
+
+  const auto keyframes = read_simple_map(folder / "plane.simplemap");
+  ASSERT_EQ(keyframes.size(), 1U);
+  ASSERT_EQ(keyframes[0].size(), 2U);
+  EXPECT_NEAR((keyframes[0].p_body(1) - keyframes[0].p_body_sensor).norm(), 4, 1e-5);
+  EXPECT_NEAR(keyframes[0].z[0], 0.4, 1e-6);
+}
+
+TEST(ReadSimpleMap, SaysWhatAFileIsNot) {
+  const testing::TemporaryFolder folder;
+  EXPECT_THROW(read_simple_map(folder / "none.simplemap"), files::InputError);
+  std::ofstream(folder / "text.simplemap") << "no map";
+  EXPECT_THROW(read_simple_map(folder / "text.simplemap"), files::InputError);
+  mrpt::maps::CSimpleMap empty;
+  ASSERT_TRUE(empty.saveToFile((folder / "empty.simplemap").string()));
+  EXPECT_THROW(read_simple_map(folder / "empty.simplemap"), files::InputError);
+}
+
+TEST(MapKeyframe, KeepsTheChosenPoints) {
+  MapKeyframe keyframe;
+  keyframe.x = keyframe.y = keyframe.z = keyframe.intensity = {1, 2, 3};
+  keyframe.keep_only({1, 0, 1});
+  EXPECT_EQ(keyframe.x, (std::vector<float>{1, 3}));
+  EXPECT_EQ(keyframe.intensity, (std::vector<float>{1, 3}));
+}
+
+}  // namespace
+}  // namespace traverse::mapping
