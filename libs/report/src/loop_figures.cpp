@@ -43,7 +43,7 @@ void add_loop_figures(const RunData& run, FigureMaker& maker) {
   const std::string statistic =
       fmt::format("{} loops closed, {} candidates turned away", count_text(accepted),
                   count_text(marks.size() - accepted));
-  maker.add("loops", "loops",
+  maker.add("loops", "loops-above",
             "Where loops were closed (dots), and which places were held for one and turned away "
             "(lines between the two).",
             [&](const render::Style& style) {
