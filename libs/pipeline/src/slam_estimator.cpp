@@ -42,6 +42,10 @@ SlamEstimator::SlamEstimator(std::unique_ptr<LidarEstimator> odometry,
   columns_.insert(columns_.end(), {"keyframe", "loops", "slam_ms"});
   const auto* receiver = recording.rig.first(sensors::SensorKind::kGnss);
   if (!gnss_.use || receiver == nullptr) return;
+  if (receiver->label == recording.reference_receiver) {
+    gnss_note_ = "not used: the reference is made of them";
+    return;
+  }
   receiver_ = receiver->label;
   antenna_lidar_ =
       odometry_->sensor().T_body_sensor.inverse() * receiver->T_body_sensor.translation;
@@ -50,6 +54,7 @@ SlamEstimator::SlamEstimator(std::unique_ptr<LidarEstimator> odometry,
 SlamEstimator::SlamEstimator(const SlamEstimator& other)
     : gnss_(other.gnss_),
       receiver_(other.receiver_),
+      gnss_note_(other.gnss_note_),
       antenna_lidar_(other.antenna_lidar_),
       plane_(other.plane_),
       fixes_(other.fixes_),
@@ -137,6 +142,7 @@ std::vector<Decision> SlamEstimator::decisions() const {
   decisions.push_back(
       {"loops", fmt::format("{} of {} candidates accepted, {} keyframes", slam_.accepted_loops(),
                             slam_.loops().size(), slam_.keyframes().size())});
+  if (!gnss_note_.empty()) decisions.push_back({"fixes", gnss_note_});
   if (slam_.graph().is_georeferenced()) {
     const geodesy::Geodetic& origin = plane_->origin();
     decisions.push_back(

@@ -64,7 +64,8 @@ class SlamEstimator final : public Estimator {
   void place(const sensors::GnssFix& fix, const geometry::Pose3& T_odom_lidar);
 
   SlamGnssOptions gnss_;
-  std::string receiver_;  ///< label; empty: no fixes
+  std::string receiver_;   ///< label; empty: no fixes
+  std::string gnss_note_;  ///< why fixes are not used although there are some
   Eigen::Vector3d antenna_lidar_ = Eigen::Vector3d::Zero();
   std::optional<geodesy::LocalTangentPlane> plane_;  ///< at the first fix
   std::deque<sensors::GnssFix> fixes_;               ///< that wait for the frame after them

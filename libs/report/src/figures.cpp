@@ -11,6 +11,7 @@
 
 #include "error_figures.hpp"
 #include "figure_maker.hpp"
+#include "loop_figures.hpp"
 #include "map_figures.hpp"
 #include "number_text.hpp"
 #include "series.hpp"
@@ -131,6 +132,7 @@ std::vector<Figure> draw_figures(const RunData& run, const evaluation::WorstSegm
                                  const std::function<void(const std::string&)>& picture_drawn) {
   FigureMaker maker(run, width, picture_drawn);
   add_trajectories(run, maker);
+  add_loop_figures(run, maker);
   if (run.evaluation.comparison) add_error_figures(run, maker);
   add_worst_segment_figures(run, worst, maker);
   add_map_figures(run, maker);
