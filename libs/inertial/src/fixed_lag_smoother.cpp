@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -47,17 +48,21 @@ std::pair<double, double> huber_loss(double s, double k) {
 
 }  // namespace
 
+CalibrationWalk calibration_walk(const NavigationOptions& options) {
+  constexpr double kRadiansPerDegree = std::numbers::pi / 180;
+  return {options.wheels.scale_walk, kRadiansPerDegree * options.wheels.turn_walk_deg,
+          options.gnss.latency_walk};
+}
+
 FixedLagSmoother::FixedLagSmoother(const WindowOptions& options, const ImuNoise& noise,
-                                   double wheel_scale_walk, const Eigen::Vector3d& gravity_map)
-    : options_(options),
-      noise_(noise),
-      wheel_scale_walk_(wheel_scale_walk),
-      gravity_map_(gravity_map) {}
+                                   const CalibrationWalk& calibration,
+                                   const Eigen::Vector3d& gravity_map)
+    : options_(options), noise_(noise), calibration_(calibration), gravity_map_(gravity_map) {}
 
 FixedLagSmoother::FixedLagSmoother(const FixedLagSmoother& other)
     : options_(other.options_),
       noise_(other.noise_),
-      wheel_scale_walk_(other.wheel_scale_walk_),
+      calibration_(other.calibration_),
       gravity_map_(other.gravity_map_),
       nodes_(other.nodes_),
       prior_(other.prior_),
@@ -85,7 +90,9 @@ FixedLagSmoother::Link FixedLagSmoother::make_link(std::shared_ptr<Preintegratio
   link.weight = weight_of(*imu);
   link.gyro_walk = 1 / (noise_.gyro_bias_walk * root_seconds);
   link.accelerometer_walk = 1 / (noise_.accelerometer_bias_walk * root_seconds);
-  link.scale_walk = 1 / (wheel_scale_walk_ * root_seconds);
+  link.scale_walk = 1 / (calibration_.wheel_scale * root_seconds);
+  link.turn_walk = 1 / (calibration_.wheel_turn * root_seconds);
+  link.latency_walk = 1 / (calibration_.gnss_latency * root_seconds);
   link.imu = std::move(imu);
   return link;
 }
@@ -116,6 +123,10 @@ void FixedLagSmoother::add(std::unique_ptr<StateFactor> factor) {
   nodes_.back().factors.push_back(std::move(factor));
 }
 
+void FixedLagSmoother::add_to_last(std::unique_ptr<StateFactor> factor) {
+  nodes_[nodes_.size() - 2].factors.push_back(std::move(factor));
+}
+
 std::vector<FactorType> FixedLagSmoother::factors_of(std::size_t k) const {
   std::vector<FactorType> types;
   for (const auto& factor : nodes_[k].factors) types.push_back(factor->type());
@@ -141,7 +152,7 @@ double FixedLagSmoother::add_state_terms(std::size_t k, BlockRow& row) const {
     twice_cost += loss;
   }
   if (k == 0) {
-    Jacobian<16> d;
+    Jacobian<NavState::kTangent> d;
     prior_residual(prior_.at, at, &d);
     const Matrix W = prior_.weight * d;
     const Tangent e = prior_.weight * node.x.minus(prior_.at) + prior_.offset;
@@ -178,10 +189,12 @@ FixedLagSmoother::LinkTerms FixedLagSmoother::link_terms(std::size_t k) const {
   constexpr int kWalks = NavState::kTangent - NavState::kGyroBias;
   Eigen::Matrix<double, kWalks, 1> w;
   w << Eigen::Vector3d::Constant(link.gyro_walk),
-      Eigen::Vector3d::Constant(link.accelerometer_walk), link.scale_walk;
+      Eigen::Vector3d::Constant(link.accelerometer_walk), link.scale_walk,
+      Eigen::Vector2d::Constant(link.turn_walk), link.latency_walk;
   Eigen::Matrix<double, kWalks, 1> d;
   d << gyro_bias_walk_residual(i.x, j.x), accelerometer_bias_walk_residual(i.x, j.x),
-      wheel_scale_walk_residual(i.x, j.x);
+      wheel_scale_walk_residual(i.x, j.x), wheel_turn_walk_residual(i.x, j.x),
+      gnss_latency_walk_residual(i.x, j.x);
   const Eigen::Matrix<double, kWalks, 1> squares = w.cwiseAbs2();
   terms.H_ii.diagonal().tail<kWalks>() += squares;
   terms.H_jj.diagonal().tail<kWalks>() += squares;
@@ -229,6 +242,8 @@ double FixedLagSmoother::cost() const {
     twice += (link.gyro_walk * gyro_bias_walk_residual(i.x, j)).squaredNorm();
     twice += (link.accelerometer_walk * accelerometer_bias_walk_residual(i.x, j)).squaredNorm();
     twice += (link.scale_walk * wheel_scale_walk_residual(i.x, j)).squaredNorm();
+    twice += (link.turn_walk * wheel_turn_walk_residual(i.x, j)).squaredNorm();
+    twice += (link.latency_walk * gnss_latency_walk_residual(i.x, j)).squaredNorm();
   }
   return twice / 2;
 }

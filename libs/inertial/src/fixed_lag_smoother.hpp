@@ -12,6 +12,15 @@
 
 namespace traverse::inertial {
 
+/// How fast what should be constant may change, standard deviation a sqrt(s).
+struct CalibrationWalk {
+  double wheel_scale;
+  double wheel_turn;    ///< rad
+  double gnss_latency;  ///< s
+};
+
+CalibrationWalk calibration_walk(const NavigationOptions& options);
+
 /// The states of the last moments as a chain: each is linked to the next by what the IMU measured
 /// between them and by the walk of its biases, each may have factors of its own, and the oldest has
 /// a prior in which all that is older is kept.
@@ -30,8 +39,8 @@ class FixedLagSmoother {
     double inertial_chi2 = 0;  ///< of the newest link, 9 rows
   };
 
-  FixedLagSmoother(const WindowOptions& options, const ImuNoise& noise, double wheel_scale_walk,
-                   const Eigen::Vector3d& gravity_map);
+  FixedLagSmoother(const WindowOptions& options, const ImuNoise& noise,
+                   const CalibrationWalk& calibration, const Eigen::Vector3d& gravity_map);
 
   /// A copy has pre-integrations of its own, because they are made again when biases move.
   FixedLagSmoother(const FixedLagSmoother& other);
@@ -47,6 +56,8 @@ class FixedLagSmoother {
   void append(std::shared_ptr<Preintegration> imu);
   /// Constrains the newest state.
   void add(std::unique_ptr<StateFactor> factor);
+  /// Constrains the state before the newest. \pre size() > 1
+  void add_to_last(std::unique_ptr<StateFactor> factor);
 
   /// \throws std::runtime_error if the normal equations are not positive definite
   Solution solve();
@@ -69,6 +80,8 @@ class FixedLagSmoother {
     double gyro_walk = 0;  ///< 1 / standard deviation
     double accelerometer_walk = 0;
     double scale_walk = 0;
+    double turn_walk = 0;
+    double latency_walk = 0;
   };
   struct Node {
     NavState x;
@@ -108,7 +121,7 @@ class FixedLagSmoother {
 
   WindowOptions options_;
   ImuNoise noise_;
-  double wheel_scale_walk_;
+  CalibrationWalk calibration_;
   Eigen::Vector3d gravity_map_;
   std::deque<Node> nodes_;
   Prior prior_;

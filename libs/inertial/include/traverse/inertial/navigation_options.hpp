@@ -16,6 +16,10 @@ enum class GnssForm { kPosition, kPose };
 enum class WheelForm { kVelocity, kWorldVelocity };
 /// What makes a state: each fix, or each fix and each reading of the wheels.
 enum class Trigger { kGnss, kGnssAndWheels };
+/// What constrains the two states of Trigger::kGnssAndWheels: each what made it, or both what made
+/// the later one; the earlier one then by the line between two fixes, or by the wheels' speed less
+/// what the IMU says that it changed by. The second counts measurements twice.
+enum class Pairing { kOwn, kAlike };
 
 struct GnssOptions {
   bool use = true;
@@ -25,9 +29,12 @@ struct GnssOptions {
   bool use_covariance = true;  ///< of the fix, where it has one that is positive definite
   bool use_heading = true;
   double heading_deg = 0.3;
-  bool gate = true;        ///< leave out what chi-square finds too unlikely (0.1 %)
-  int most_rejected = 20;  ///< in a row; the next is taken, whatever it says
-  double huber = 3;        ///< standard deviations; 0 for plain least squares
+  double latency_s = 0;           ///< a fix tells where the antenna was so long before its stamp
+  double latency_sigma_s = 1e-4;  ///< standard deviation; what is left of it is estimated
+  double latency_walk = 1e-5;     ///< s a sqrt(s)
+  bool gate = true;               ///< leave out what chi-square finds too unlikely (0.1 %)
+  int most_rejected = 20;         ///< in a row; the next is taken, whatever it says
+  double huber = 3;               ///< standard deviations; 0 for plain least squares
 };
 void bind(config::Binder& binder, GnssOptions& options);
 
@@ -37,8 +44,10 @@ struct WheelOptions {
   double forward_mps = 0.05;  ///< standard deviations
   double sideways_mps = 0.1;
   double upwards_mps = 0.1;
-  double scale = 0.02;       ///< of the first scale, about 1
-  double scale_walk = 1e-5;  ///< a sqrt(s)
+  double scale = 0.02;          ///< of the first scale, about 1
+  double scale_walk = 1e-5;     ///< a sqrt(s)
+  double turn_deg = 0.1;        ///< of the first pitch and yaw of the wheels' axes, about 0
+  double turn_walk_deg = 1e-4;  ///< a sqrt(s)
   bool gate = true;
   bool zero_velocity = true;  ///< constrain velocity and gyro bias when they stand still
   double standing_s = 0.5;    ///< without a pulse, or slower than standing_mps
@@ -83,6 +92,7 @@ void bind(config::Binder& binder, OutageOptions& options);
 
 struct NavigationOptions {
   Trigger trigger = Trigger::kGnss;
+  Pairing pairing = Pairing::kOwn;
   double longest_step_s = 0.15;  ///< without a fix, after which the wheels make a state
   double longest_gap_s = 1;      ///< of the IMU, after which navigation starts anew
   double gravity = 9.80665;      ///< m/s^2, where no fix tells the latitude
