@@ -30,7 +30,8 @@ struct State {
         accelerometer_bias(blocks[4]),
         wheel_scale(*blocks[5]),
         wheel_turn(blocks[6]),
-        gnss_latency(*blocks[7]) {}
+        gnss_latency(*blocks[7]),
+        gnss_bias(blocks[8]) {}
 
   Quaternion<T> q;
   Matrix3<T> R;
@@ -38,6 +39,7 @@ struct State {
   T wheel_scale;
   Eigen::Matrix<T, 2, 1> wheel_turn;
   T gnss_latency;
+  Vector3<T> gnss_bias;
 };
 
 /// Away from the identity, where checks are made.
@@ -96,6 +98,7 @@ void prior(const NavState& expected, const State<T>& x, T* residual) {
   r[15] = x.wheel_scale - T(expected.wheel_scale);
   r.template segment<2>(16) = x.wheel_turn - expected.wheel_turn.cast<T>();
   r[18] = x.gnss_latency - T(expected.gnss_latency);
+  r.template segment<3>(19) = x.gnss_bias - expected.gnss_bias.cast<T>();
 }
 
 template <typename T>
@@ -106,7 +109,7 @@ void gnss_position(const AntennaFix& fix, const State<T>& x, T* residual) {
   const Vector3<T> a = fix.acceleration_map.cast<T>();
   const T t = x.gnss_latency;
   Eigen::Map<Vector3<T>> r(residual);
-  r = x.q * lever + x.p - v * t + a * (t * t / T(2)) - fix.p_map.cast<T>();
+  r = x.q * lever + x.p - v * t + a * (t * t / T(2)) + x.gnss_bias - fix.p_map.cast<T>();
 }
 
 template <typename T>

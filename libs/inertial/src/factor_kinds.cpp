@@ -24,10 +24,10 @@ using optimization::RandomStates;
 
 namespace {
 
-constexpr std::array<int, kStateBlocks> kBlockSizes{4, 3, 3, 3, 3, 1, 2, 1};
+constexpr std::array<int, kStateBlocks> kBlockSizes{4, 3, 3, 3, 3, 1, 2, 1, 3};
 constexpr std::array<const char*, kStateBlocks> kBlockNames{
-    "rotation",           "position",    "velocity",   "gyro bias",
-    "accelerometer bias", "wheel scale", "wheel turn", "GNSS latency"};
+    "rotation",    "position",   "velocity",     "gyro bias", "accelerometer bias",
+    "wheel scale", "wheel turn", "GNSS latency", "GNSS bias"};
 
 /// Parts of one or two states (numbers below or from kStateBlocks) that a factor depends on, and
 /// the rows of the residual that are looked at.
@@ -100,6 +100,7 @@ void add_random_state(RandomStates& random, std::vector<Eigen::VectorXd>& state)
   state.emplace_back(Eigen::VectorXd::Constant(1, random.uniform(0.9, 1.1)));
   state.emplace_back(random.vector(0.5).head<2>());
   state.emplace_back(Eigen::VectorXd::Constant(1, random.uniform(0.05, 0.3)));
+  state.emplace_back(random.vector(2));
 }
 
 NavState random_nav_state(RandomStates& random) {
@@ -193,7 +194,7 @@ WholeSample inertial_sample(RandomStates& random) {
   });
 }
 
-enum Block : int { kQ, kP, kV, kBg, kBa, kS, kTurn, kLatency };
+enum Block : int { kQ, kP, kV, kBg, kBa, kS, kTurn, kLatency, kGnss };
 constexpr int kJ = kStateBlocks;  // added to a Block: the same part of the second state
 
 void add_link_kinds(std::vector<FactorKind>& kinds) {
@@ -237,25 +238,32 @@ void add_link_kinds(std::vector<FactorKind>& kinds) {
           r[0] = j.gnss_latency - i.gnss_latency;
         });
       }));
+  kinds.push_back(kind(
+      "GNSS bias walk", "r = cj - a ci", 2, {{kGnss, kGnss + kJ}, 0, 3}, [](RandomStates& random) {
+        const double decay = random.uniform(0.5, 1);
+        return of_link(GnssBiasWalkModel{decay}, [=](const auto& i, const auto& j, auto* r) {
+          for (int k = 0; k < 3; ++k) r[k] = j.gnss_bias[k] - decay * i.gnss_bias[k];
+        });
+      }));
 }
 
 void add_state_kinds(std::vector<FactorKind>& kinds) {
   kinds.push_back(kind("prior", "r = (Log(R0' R), x - x0 for each other part)", 1,
-                       {{kQ, kP, kV, kBg, kBa, kS, kTurn, kLatency}, 0, NavState::kTangent},
+                       {{kQ, kP, kV, kBg, kBa, kS, kTurn, kLatency, kGnss}, 0, NavState::kTangent},
                        [](RandomStates& random) {
                          const NavState expected = random_nav_state(random);
                          return of_state(PriorModel{expected}, [=](const auto& x, auto* r) {
                            automatic::prior(expected, x, r);
                          });
                        }));
-  kinds.push_back(kind("GNSS position", "r = p + R l - t (v + R ((w - bg) x l)) + a t^2 / 2 - z", 1,
-                       {{kQ, kP, kV, kBg, kLatency}, 0, 3}, [](RandomStates& random) {
-                         const AntennaFix fix{random.vector(50), random.vector(2), random.vector(1),
-                                              random.vector(3)};
-                         return of_state(GnssPositionModel{fix}, [=](const auto& x, auto* r) {
-                           automatic::gnss_position(fix, x, r);
-                         });
-                       }));
+  kinds.push_back(
+      kind("GNSS position", "r = p + R l - t (v + R ((w - bg) x l)) + a t^2 / 2 + c - z", 1,
+           {{kQ, kP, kV, kBg, kLatency, kGnss}, 0, 3}, [](RandomStates& random) {
+             const AntennaFix fix{random.vector(50), random.vector(2), random.vector(1),
+                                  random.vector(3)};
+             return of_state(GnssPositionModel{fix},
+                             [=](const auto& x, auto* r) { automatic::gnss_position(fix, x, r); });
+           }));
   kinds.push_back(
       kind("heading", "r = wrap(atan2(R10, R00) - psi)", 1, {{kQ}, 0, 1}, [](RandomStates& random) {
         const double heading = random.uniform(-3, 3);

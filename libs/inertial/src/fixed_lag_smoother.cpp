@@ -50,8 +50,12 @@ std::pair<double, double> huber_loss(double s, double k) {
 
 CalibrationWalk calibration_walk(const NavigationOptions& options) {
   constexpr double kRadiansPerDegree = std::numbers::pi / 180;
-  return {options.wheels.scale_walk, kRadiansPerDegree * options.wheels.turn_walk_deg,
-          options.gnss.latency_walk};
+  const GnssOptions& gnss = options.gnss;
+  return {options.wheels.scale_walk,
+          kRadiansPerDegree * options.wheels.turn_walk_deg,
+          gnss.latency_walk,
+          {gnss.bias_horizontal_m, gnss.bias_horizontal_m, gnss.bias_vertical_m},
+          gnss.bias_s};
 }
 
 FixedLagSmoother::FixedLagSmoother(const WindowOptions& options, const ImuNoise& noise,
@@ -93,6 +97,9 @@ FixedLagSmoother::Link FixedLagSmoother::make_link(std::shared_ptr<Preintegratio
   link.scale_walk = 1 / (calibration_.wheel_scale * root_seconds);
   link.turn_walk = 1 / (calibration_.wheel_turn * root_seconds);
   link.latency_walk = 1 / (calibration_.gnss_latency * root_seconds);
+  link.gnss_decay = std::exp(-imu->seconds() / calibration_.gnss_bias_s);
+  const double renewed = std::sqrt(1 - link.gnss_decay * link.gnss_decay);
+  link.gnss_walk = (renewed * calibration_.gnss_bias_m).cwiseInverse();
   link.imu = std::move(imu);
   return link;
 }
@@ -185,21 +192,23 @@ FixedLagSmoother::LinkTerms FixedLagSmoother::link_terms(std::size_t k) const {
   terms.g_j.noalias() = Wj.transpose() * r;
   terms.inertial_chi2 = r.squaredNorm();
 
-  // The walks: r = w (x_j - x_i), so that each adds w^2 to the diagonals.
+  // The walks: r = w (x_j - a x_i), so that each adds (a w)^2 and w^2 to the diagonals.
   constexpr int kWalks = NavState::kTangent - NavState::kGyroBias;
   Eigen::Matrix<double, kWalks, 1> w;
   w << Eigen::Vector3d::Constant(link.gyro_walk),
       Eigen::Vector3d::Constant(link.accelerometer_walk), link.scale_walk,
-      Eigen::Vector2d::Constant(link.turn_walk), link.latency_walk;
+      Eigen::Vector2d::Constant(link.turn_walk), link.latency_walk, link.gnss_walk;
   Eigen::Matrix<double, kWalks, 1> d;
   d << gyro_bias_walk_residual(i.x, j.x), accelerometer_bias_walk_residual(i.x, j.x),
       wheel_scale_walk_residual(i.x, j.x), wheel_turn_walk_residual(i.x, j.x),
-      gnss_latency_walk_residual(i.x, j.x);
+      gnss_latency_walk_residual(i.x, j.x), gnss_bias_walk_residual(link.gnss_decay, i.x, j.x);
   const Eigen::Matrix<double, kWalks, 1> squares = w.cwiseAbs2();
-  terms.H_ii.diagonal().tail<kWalks>() += squares;
+  Eigen::Matrix<double, kWalks, 1> a = Eigen::Matrix<double, kWalks, 1>::Ones();
+  a.tail<3>().setConstant(link.gnss_decay);
+  terms.H_ii.diagonal().tail<kWalks>() += squares.cwiseProduct(a.cwiseAbs2());
   terms.H_jj.diagonal().tail<kWalks>() += squares;
-  terms.H_ij.diagonal().tail<kWalks>() -= squares;
-  terms.g_i.tail<kWalks>() -= squares.cwiseProduct(d);
+  terms.H_ij.diagonal().tail<kWalks>() -= squares.cwiseProduct(a);
+  terms.g_i.tail<kWalks>() -= squares.cwiseProduct(a).cwiseProduct(d);
   terms.g_j.tail<kWalks>() += squares.cwiseProduct(d);
   terms.cost = (terms.inertial_chi2 + w.cwiseProduct(d).squaredNorm()) / 2;
   return terms;
@@ -244,6 +253,8 @@ double FixedLagSmoother::cost() const {
     twice += (link.scale_walk * wheel_scale_walk_residual(i.x, j)).squaredNorm();
     twice += (link.turn_walk * wheel_turn_walk_residual(i.x, j)).squaredNorm();
     twice += (link.latency_walk * gnss_latency_walk_residual(i.x, j)).squaredNorm();
+    twice +=
+        link.gnss_walk.cwiseProduct(gnss_bias_walk_residual(link.gnss_decay, i.x, j)).squaredNorm();
   }
   return twice / 2;
 }

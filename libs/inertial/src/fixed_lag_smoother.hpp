@@ -12,11 +12,14 @@
 
 namespace traverse::inertial {
 
-/// How fast what should be constant may change, standard deviation a sqrt(s).
+/// How fast what should be constant may change, standard deviation a sqrt(s), and how the bias of
+/// fixes comes and goes.
 struct CalibrationWalk {
   double wheel_scale;
-  double wheel_turn;    ///< rad
-  double gnss_latency;  ///< s
+  double wheel_turn;            ///< rad
+  double gnss_latency;          ///< s
+  Eigen::Vector3d gnss_bias_m;  ///< standard deviations for good
+  double gnss_bias_s;           ///< time after which a share of 1/e is left
 };
 
 CalibrationWalk calibration_walk(const NavigationOptions& options);
@@ -82,6 +85,8 @@ class FixedLagSmoother {
     double scale_walk = 0;
     double turn_walk = 0;
     double latency_walk = 0;
+    Eigen::Vector3d gnss_walk = Eigen::Vector3d::Zero();
+    double gnss_decay = 1;
   };
   struct Node {
     NavState x;

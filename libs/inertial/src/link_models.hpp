@@ -48,6 +48,15 @@ struct GnssLatencyWalkModel {
   }
 };
 
+struct GnssBiasWalkModel {
+  static constexpr int kSize = 3;
+  double decay;
+  Residual<3> operator()(const NavState& i, const NavState& j, Jacobian<3>* Ji,
+                         Jacobian<3>* Jj) const {
+    return gnss_bias_walk_residual(decay, i, j, Ji, Jj);
+  }
+};
+
 struct WheelScaleWalkModel {
   static constexpr int kSize = 1;
   Residual<1> operator()(const NavState& i, const NavState& j, Jacobian<1>* Ji,

@@ -14,6 +14,7 @@ NavState NavState::plus(const Tangent& d) const {
   moved.wheel_scale += d[kWheelScale];
   moved.wheel_turn += d.segment<2>(kWheelTurn);
   moved.gnss_latency += d[kGnssLatency];
+  moved.gnss_bias += d.segment<3>(kGnssBias);
   return moved;
 }
 
@@ -27,6 +28,7 @@ NavState::Tangent NavState::minus(const NavState& origin) const {
   d[kWheelScale] = wheel_scale - origin.wheel_scale;
   d.segment<2>(kWheelTurn) = wheel_turn - origin.wheel_turn;
   d[kGnssLatency] = gnss_latency - origin.gnss_latency;
+  d.segment<3>(kGnssBias) = gnss_bias - origin.gnss_bias;
   return d;
 }
 

@@ -52,6 +52,10 @@ void bind(Binder& b, GnssOptions& o) {
   b.flag("use_covariance", o.use_covariance, "take the covariance that a fix tells");
   b.flag("use_heading", o.use_heading, "take the heading of two antennas");
   b.number("heading_deg", o.heading_deg, Range::positive(), "standard deviation of a heading");
+  b.number("bias_horizontal_m", o.bias_horizontal_m, Range::positive(),
+           "standard deviation of what fixes err by for seconds on end, which is estimated");
+  b.number("bias_vertical_m", o.bias_vertical_m, Range::positive(), "the same");
+  b.number("bias_s", o.bias_s, Range::positive(), "time after which 1/e of that is left");
   b.number("latency_s", o.latency_s, Range::between(-1, 1),
            "a fix tells where the antenna was so long before its stamp");
   b.number("latency_sigma_s", o.latency_sigma_s, Range::positive(),

@@ -51,6 +51,8 @@ FirstState NavigationStart::begin(geometry::Stamp stamp) {
   first.sigma[NavState::kWheelScale] = wheels_.scale;
   first.sigma.segment<2>(NavState::kWheelTurn).setConstant(wheels_.turn_deg * kRadiansPerDegree);
   first.sigma[NavState::kGnssLatency] = gnss_.latency_sigma_s;
+  first.sigma.segment<3>(NavState::kGnssBias) << gnss_.bias_horizontal_m, gnss_.bias_horizontal_m,
+      gnss_.bias_vertical_m;
   first.sigma.segment<3>(NavState::kAccelerometerBias).setConstant(options_.accelerometer_bias);
   if (last_still_) {
     first.state.q_map_body = Eigen::Quaterniond(last_still_->R_level_body);
@@ -112,7 +114,8 @@ std::optional<FirstState> NavigationStart::at_fix(const MapFix& fix) {
   first.sigma[2] = heading_sigma;
   const Eigen::Vector3d fix_sigma = fix.covariance.diagonal().cwiseSqrt();
   first.sigma.segment<3>(NavState::kPosition) =
-      10 * fix_sigma + Eigen::Vector3d::Constant(0.1);  // the fix itself is a factor
+      10 * fix_sigma + Eigen::Vector3d::Constant(0.1) +  // the fix itself is a factor
+      first.sigma.segment<3>(NavState::kGnssBias);
   first.sigma.segment<3>(NavState::kVelocity) =
       Eigen::Vector3d::Constant(is_still ? 0.05 : 1) +
       (part_s > 0 && !is_still ? Eigen::Vector3d(2 * fix_sigma / part_s) : Eigen::Vector3d::Zero());

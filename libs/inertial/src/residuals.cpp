@@ -109,6 +109,13 @@ Residual<1> gnss_latency_walk_residual(const NavState& i, const NavState& j, Jac
   return Residual<1>(j.gnss_latency - i.gnss_latency);
 }
 
+Residual<3> gnss_bias_walk_residual(double decay, const NavState& i, const NavState& j,
+                                    Jacobian<3>* dr_di, Jacobian<3>* dr_dj) {
+  walk_jacobians<3, NavState::kGnssBias>(dr_di, dr_dj);
+  if (dr_di != nullptr) *dr_di *= decay;
+  return j.gnss_bias - decay * i.gnss_bias;
+}
+
 Residual<NavState::kTangent> prior_residual(const NavState& expected, const NavState& x,
                                             Jacobian<NavState::kTangent>* dr_dx) {
   const NavState::Tangent r = x.minus(expected);
@@ -132,9 +139,11 @@ Residual<3> gnss_position_residual(const AntennaFix& fix, const NavState& x, Jac
     dr_dx->block<3, 3>(0, NavState::kPosition).setIdentity();
     dr_dx->block<3, 3>(0, NavState::kVelocity) = -t * Eigen::Matrix3d::Identity();
     dr_dx->block<3, 3>(0, NavState::kGyroBias) = -t * R * hat(l);
+    dr_dx->block<3, 3>(0, NavState::kGnssBias).setIdentity();
     dr_dx->col(NavState::kGnssLatency) = t * fix.acceleration_map - v_antenna;
   }
-  return x.p_map + R * l - t * v_antenna + 0.5 * t * t * fix.acceleration_map - fix.p_map;
+  return x.p_map + R * l - t * v_antenna + 0.5 * t * t * fix.acceleration_map + x.gnss_bias -
+         fix.p_map;
 }
 
 Residual<1> heading_residual(double heading, const NavState& x, Jacobian<1>* dr_dx) {

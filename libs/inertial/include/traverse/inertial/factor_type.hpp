@@ -14,6 +14,7 @@ enum class FactorType {
   kWheelScaleWalk,
   kWheelTurnWalk,
   kGnssLatencyWalk,
+  kGnssBiasWalk,
   kPrior,
   kGnssPosition,
   kHeading,
@@ -23,13 +24,14 @@ enum class FactorType {
   kWorldVelocity
 };
 
-inline constexpr std::array<std::pair<std::string_view, FactorType>, 13> kFactorTypeNames{
+inline constexpr std::array<std::pair<std::string_view, FactorType>, 14> kFactorTypeNames{
     {{"inertial", FactorType::kInertial},
      {"gyro bias walk", FactorType::kGyroBiasWalk},
      {"accelerometer bias walk", FactorType::kAccelerometerBiasWalk},
      {"wheel scale walk", FactorType::kWheelScaleWalk},
      {"wheel turn walk", FactorType::kWheelTurnWalk},
      {"GNSS latency walk", FactorType::kGnssLatencyWalk},
+     {"GNSS bias walk", FactorType::kGnssBiasWalk},
      {"prior", FactorType::kPrior},
      {"GNSS position", FactorType::kGnssPosition},
      {"heading", FactorType::kHeading},

@@ -29,6 +29,9 @@ struct GnssOptions {
   bool use_covariance = true;  ///< of the fix, where it has one that is positive definite
   bool use_heading = true;
   double heading_deg = 0.3;
+  double bias_horizontal_m = 0.001;  ///< standard deviations of what fixes err by for long
+  double bias_vertical_m = 0.001;
+  double bias_s = 60;             ///< time after which a share of 1/e of that is left
   double latency_s = 0;           ///< a fix tells where the antenna was so long before its stamp
   double latency_sigma_s = 1e-4;  ///< standard deviation; what is left of it is estimated
   double latency_walk = 1e-5;     ///< s a sqrt(s)

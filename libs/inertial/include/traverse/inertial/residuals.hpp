@@ -36,6 +36,9 @@ Residual<2> wheel_turn_walk_residual(const NavState& i, const NavState& j,
                                      Jacobian<2>* dr_di = nullptr, Jacobian<2>* dr_dj = nullptr);
 Residual<1> gnss_latency_walk_residual(const NavState& i, const NavState& j,
                                        Jacobian<1>* dr_di = nullptr, Jacobian<1>* dr_dj = nullptr);
+/// A first-order Gauss-Markov process. \param decay  share of the bias of i that is left in j
+Residual<3> gnss_bias_walk_residual(double decay, const NavState& i, const NavState& j,
+                                    Jacobian<3>* dr_di = nullptr, Jacobian<3>* dr_dj = nullptr);
 
 /// x less the state `expected`, in the tangent of `expected`.
 Residual<NavState::kTangent> prior_residual(const NavState& expected, const NavState& x,
@@ -49,8 +52,8 @@ struct AntennaFix {
   Eigen::Vector3d acceleration_map = Eigen::Vector3d::Zero();  ///< as predicted [m/s^2]
 };
 
-/// Where the antenna was at the state's latency before it, to second order in time, less where it
-/// was measured, map frame [m].
+/// Where the antenna was at the state's latency before it, to second order in time, with the bias
+/// of fixes, less where it was measured, map frame [m].
 Residual<3> gnss_position_residual(const AntennaFix& fix, const NavState& x,
                                    Jacobian<3>* dr_dx = nullptr);
 
