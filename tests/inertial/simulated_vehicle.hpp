@@ -104,12 +104,14 @@ struct SimulatedSensors {
   double accelerometer_bias = 0.1;
   double gnss_hz = 10;
   double gnss_sigma_m = 0.01;    ///< horizontally; twice that in height
+  double gnss_latency_s = 0;     ///< what a fix tells is so old
   double heading_sigma_deg = 0;  ///< of two antennas; 0: there is only one
   Eigen::Vector3d antenna_body{-0.3, 0.2, 0.9};
   double wheel_hz = 10;
   double wheel_offset_s = 0.03;  ///< of the readings from the fixes
   double m_per_pulse = 2 * M_PI * 0.3 / 1024;
-  double wheel_scale = 1.004;  ///< true distance over told distance
+  double wheel_scale = 1.004;        ///< true distance over told distance
+  Eigen::Vector2d wheel_turn{0, 0};  ///< pitch and yaw of their axes from what is told [rad]
   std::uint32_t seed = 1;
 };
 
@@ -162,7 +164,8 @@ inline SimulatedDrive simulate(const SimulatedVehicle& car, const SimulatedSenso
   }
   for (int k = 0; k / s.gnss_hz <= seconds; ++k) {
     const double t = k / s.gnss_hz;
-    const auto& T = drive.truth[static_cast<std::size_t>(std::lround(100 * t))];
+    const double then = std::max(0.0, t - s.gnss_latency_s);
+    const auto& T = drive.truth[static_cast<std::size_t>(std::lround(100 * then))];
     Eigen::Vector3d e = noise(s.gnss_sigma_m);
     e.z() *= 2;
     const auto place = drive.plane.to_geodetic(T * s.antenna_body + e);
@@ -188,6 +191,9 @@ inline SimulatedDrive simulate(const SimulatedVehicle& car, const SimulatedSenso
   }
   drive.mounts.antenna_body = s.antenna_body;
   drive.mounts.wheels.p_body = -car.imu_from_axle;
+  // The wheels' axes are the body's, Exp(turn) those that are told.
+  drive.mounts.wheels.R_wheels_body =
+      geometry::exp_so3({0, s.wheel_turn[0], s.wheel_turn[1]}).transpose();
   drive.mounts.encoder = {s.m_per_pulse, s.m_per_pulse};
   return drive;
 }

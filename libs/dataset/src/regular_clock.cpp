@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace traverse::dataset {
 
@@ -10,12 +11,26 @@ namespace {
 using geometry::seconds_between;
 using geometry::Stamp;
 
+/// Where in its period the clock ticks, after the first stamp: the circular mean of the first ones.
+double phase_of(const std::vector<Stamp>& stamps, double period_s) {
+  constexpr std::size_t kFirst = 50;
+  double cosine = 0;
+  double sine = 0;
+  for (std::size_t k = 0; k < std::min(kFirst, stamps.size()); ++k) {
+    const double angle =
+        2 * std::numbers::pi * seconds_between(stamps.front(), stamps[k]) / period_s;
+    cosine += std::cos(angle);
+    sine += std::sin(angle);
+  }
+  return std::atan2(sine, cosine) / (2 * std::numbers::pi) * period_s;
+}
+
 /// The number of each stamp's tick, counted from the first; the clock's offset follows slowly, so
 /// that its own rate need not be exactly what is stated. Nothing if two stamps share a tick.
 std::optional<std::vector<double>> ticks_of(const std::vector<Stamp>& stamps, double period_s) {
   constexpr double kFollow = 0.05;
   std::vector<double> ticks;
-  double offset = 0;
+  double offset = phase_of(stamps, period_s);
   for (const Stamp stamp : stamps) {
     const double seconds = seconds_between(stamps.front(), stamp) - offset;
     const double tick = std::round(seconds / period_s);
@@ -49,7 +64,7 @@ std::optional<ClockFit> put_on_clock(std::vector<Stamp>& stamps, double period_s
   }
   ClockFit fit;
   fit.period_s = products / squares;
-  fit.missing = static_cast<std::size_t>(ticks->back()) + 1 - stamps.size();
+  fit.missing = static_cast<std::size_t>(ticks->back() - ticks->front()) + 1 - stamps.size();
   const Stamp first = stamps.front();
   for (std::size_t k = 0; k < stamps.size(); ++k) {
     const double place = mean_seconds + fit.period_s * ((*ticks)[k] - mean_tick);

@@ -343,6 +343,20 @@ FixedLagSmoother::Solution FixedLagSmoother::solve() {
   return solution;
 }
 
+std::vector<NavState::Matrix> FixedLagSmoother::covariances() const {
+  std::vector<BlockRow> rows;
+  build(rows);
+  const std::vector<Cholesky> diagonals = eliminate(rows);
+  std::vector<Matrix> result(rows.size());
+  for (std::size_t k = rows.size(); k-- > 0;) {
+    result[k] = diagonals[k].solve(Matrix::Identity());
+    if (k + 1 == rows.size()) continue;
+    const Matrix M = diagonals[k].solve(rows[k].to_next);
+    result[k] += M * result[k + 1] * M.transpose();
+  }
+  return result;
+}
+
 void FixedLagSmoother::marginalise_oldest() {
   BlockRow oldest{Matrix::Zero(), Matrix::Zero(), Tangent::Zero()};
   add_state_terms(0, oldest);

@@ -70,6 +70,8 @@ class FixedLagSmoother {
   const NavState& state(std::size_t k) const { return nodes_[k].x; }
   /// Of the newest state: after solve() with its factors, after append() without any.
   const NavState::Matrix& covariance() const { return covariance_; }
+  /// Of every state, by what the whole window knows; after solve().
+  std::vector<NavState::Matrix> covariances() const;
   /// The types of the factors of state k.
   std::vector<FactorType> factors_of(std::size_t k) const;
 

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "fixed_lag_smoother.hpp"
+#include "frame_queue.hpp"
 #include "gnss_constraint.hpp"
 #include "imu_link.hpp"
 #include "map_fix.hpp"
@@ -23,6 +24,27 @@ using sensors::GnssFix;
 using sensors::ImuSample;
 using sensors::WheelOdometry;
 
+namespace {
+
+/// Pairing::kAlike counts each measurement twice, in each of two states: at half its weight that is
+/// once.
+constexpr double kAlikeVariance = 2;
+
+bool is_pairing_alike(const NavigationOptions& options) {
+  return options.trigger == Trigger::kGnssAndWheels && options.pairing == Pairing::kAlike;
+}
+
+WheelOptions weighed(const NavigationOptions& options) {
+  WheelOptions wheels = options.wheels;
+  if (!is_pairing_alike(options)) return wheels;
+  for (double* sigma : {&wheels.forward_mps, &wheels.sideways_mps, &wheels.upwards_mps}) {
+    *sigma *= std::sqrt(kAlikeVariance);
+  }
+  return wheels;
+}
+
+}  // namespace
+
 class Navigation::Impl {
  public:
   Impl(const NavigationOptions& options, const Mounts& mounts)
@@ -33,18 +55,19 @@ class Navigation::Impl {
         imu_(options.imu),
         wheel_speed_(mounts.encoder, options.wheels.standing_mps),
         by_gnss_(options.gnss, mounts.antenna_body),
-        by_wheels_(options.wheels, mounts.wheels),
-        outages_(options.outage) {}
+        by_wheels_(weighed(options), mounts.wheels),
+        outages_(options.outage),
+        frames_(options.window.output) {}
 
   std::vector<NavFrame> add(const ImuSample& sample) {
     if (!sample.angular_rate.allFinite() || !sample.specific_force.allFinite()) {
       ++events["IMU reading that is not finite"];
-      return take_frames();
+      return frames_.take_done();
     }
     const auto& last = imu_.last();
     if (last && sample.stamp <= last->stamp) {
       ++events["IMU reading not later than the one before"];
-      return take_frames();
+      return frames_.take_done();
     }
     if (last && seconds_between(last->stamp, sample.stamp) > options_.longest_gap_s) start_anew();
     while (!waiting_.empty() && stamp_of(waiting_.front()) <= sample.stamp) {
@@ -59,24 +82,24 @@ class Navigation::Impl {
     }
     advance(sample);
     start_without_fix();
-    return take_frames();
+    return frames_.take_done();
   }
 
   std::vector<NavFrame> add(const GnssFix& fix) {
     if (is_place(fix, events)) waiting_.emplace_back(fix);
-    return take_frames();
+    return frames_.take_done();
   }
 
   std::vector<NavFrame> add(const WheelOdometry& reading) {
     waiting_.emplace_back(reading);
-    return take_frames();
+    return frames_.take_done();
   }
 
   std::vector<NavFrame> finish() {
     if (!waiting_.empty()) events["reading after the last of the IMU"] += waiting_.size();
     waiting_.clear();
-    emit();
-    return take_frames();
+    end_frames();
+    return frames_.take_done();
   }
 
   std::string start_note() const { return has_started() ? note_ : start_->why_not(); }
@@ -108,14 +131,17 @@ class Navigation::Impl {
     if (!has_started()) start_->add(sample);
   }
 
+  void end_frames() {
+    if (has_started()) frames_.end(*smoother_);
+  }
+
   // ---- beginning
 
   void start_anew() {
     ++events["IMU gap after which navigation started anew"];
-    emit();
+    end_frames();
     smoother_.reset();
     imu_.set_last(std::nullopt);
-    frame_.reset();
     last_fix_.reset();
     waiting_.clear();
     start_.emplace(options_, mounts_, gravity_);
@@ -135,7 +161,7 @@ class Navigation::Impl {
     note_ = first.note;
     imu_.begin(first.state);
     outages_.start(first.state.stamp);
-    frame_ = NavFrame{};
+    frames_.begin(1);
   }
 
   void start_without_fix() {
@@ -160,7 +186,8 @@ class Navigation::Impl {
       return;
     }
     if (!plane) set_origin(fix);
-    const MapFix map_fix = in_map(fix, *plane, options_.gnss, mounts_.baseline_angle, events);
+    MapFix map_fix = in_map(fix, *plane, options_.gnss, mounts_.baseline_angle, events);
+    if (is_pairing_alike(options_)) map_fix.covariance *= kAlikeVariance;
     if (!has_started()) {
       const auto first = start_->at_fix(map_fix);
       if (!first) return;
@@ -169,13 +196,14 @@ class Navigation::Impl {
     const bool is_out = outages_.is_out(fix.stamp);
     if (is_out) ++events["fix kept back on purpose"];
     // The wheels make states meanwhile, where there are any.
-    if (is_out && (wheel_speed_.is_fresh() || is_close_to_newest(fix.stamp))) return;
-    if (is_pairing_alike() && is_close_to_newest(fix.stamp)) {
+    const bool by_wheels = options_.wheels.use && wheel_speed_.is_fresh();
+    if (is_out && (by_wheels || is_close_to_newest(fix.stamp))) return;
+    if (is_pairing_alike(options_) && is_close_to_newest(fix.stamp)) {
       ++events["fix within 10 ms of a state"];
       return;
     }
     make_state(fix.stamp);
-    frame_->by_gnss = !is_out;
+    frames_.newest().by_gnss = !is_out;
     if (!is_out) constrain_by(map_fix);
     if (options_.trigger == Trigger::kGnss) constrain_by_wheels();
     solve();
@@ -196,9 +224,9 @@ class Navigation::Impl {
         seconds_between(smoother_->newest().stamp, reading.stamp) > options_.longest_step_s;
     if (!is_due || is_close_to_newest(reading.stamp)) return;
     make_state(reading.stamp);
-    frame_->by_wheels = true;
+    frames_.newest().by_wheels = true;
     constrain_by_wheels();
-    if (is_pairing_alike() && last_was_by_gnss_) {
+    if (is_pairing_alike(options_) && last_was_by_gnss_) {
       by_wheels_.constrain_last(*smoother_, wheel_speed_, last_rate_);
     }
     solve();
@@ -214,10 +242,6 @@ class Navigation::Impl {
   /// Readings closer than this to a state belong to it.
   static constexpr double kSameMoment = 1e-4;
 
-  bool is_pairing_alike() const {
-    return options_.trigger == Trigger::kGnssAndWheels && options_.pairing == Pairing::kAlike;
-  }
-
   /// Whether a state at `stamp` would hardly differ from the newest; readings of wheels wait then.
   bool is_close_to_newest(Stamp stamp) const {
     constexpr double kClose = 0.01;
@@ -229,14 +253,14 @@ class Navigation::Impl {
   void make_state(Stamp stamp) {
     const bool is_there = std::abs(seconds_between(smoother_->newest().stamp, stamp)) < kSameMoment;
     if (is_there) return;
-    last_was_by_gnss_ = frame_ && frame_->by_gnss;
+    last_was_by_gnss_ = frames_.newest().by_gnss;
     last_rate_ = state_rate_;
-    emit();
+    frames_.before_append(*smoother_);
     smoother_->append(imu_.take());
     imu_.begin(smoother_->newest());
     state_rate_ = imu_.last()->angular_rate;
-    frame_ = NavFrame{};
-    frame_->in_outage = outages_.is_now_out();
+    frames_.begin(smoother_->size());
+    frames_.newest().in_outage = outages_.is_now_out();
   }
 
   void constrain_by(const MapFix& fix) {
@@ -245,9 +269,9 @@ class Navigation::Impl {
     const bool ends_outage = outages_.has_just_ended();
     const Eigen::Matrix2d P =
         smoother_->covariance().block<2, 2>(NavState::kPosition, NavState::kPosition);
-    by_gnss_.constrain(*smoother_, fix, motion, first_sigma_, *frame_, events);
+    by_gnss_.constrain(*smoother_, fix, motion, first_sigma_, frames_.newest(), events);
     if (ends_outage) report_outage(std::sqrt(P.trace()));
-    if (is_pairing_alike() && !last_was_by_gnss_) constrain_last_by(fix);
+    if (is_pairing_alike(options_) && !last_was_by_gnss_) constrain_last_by(fix);
     last_fix_ = fix;
   }
 
@@ -265,36 +289,22 @@ class Navigation::Impl {
 
   void constrain_by_wheels() {
     if (!options_.wheels.use) return;
-    by_wheels_.constrain(*smoother_, wheel_speed_, imu_.last()->angular_rate, *frame_, events);
+    by_wheels_.constrain(*smoother_, wheel_speed_, imu_.last()->angular_rate, frames_.newest(),
+                         events);
   }
 
   void report_outage(double sigma_m) {
     const OutageResult result =
-        outages_.take_result(frame_->gnss_residual_enu.head<2>().norm(), sigma_m);
+        outages_.take_result(frames_.newest().gnss_residual_enu.head<2>().norm(), sigma_m);
     outage_results.push_back(result);
-    frame_->outage_error_m = result.error_m;
-    frame_->outage_distance_m = result.distance_m;
+    frames_.newest().outage_error_m = result.error_m;
+    frames_.newest().outage_distance_m = result.distance_m;
   }
 
   void solve() {
-    const FixedLagSmoother::Solution solution = smoother_->solve();
-    frame_->state = smoother_->newest();
-    frame_->covariance = smoother_->covariance();
-    frame_->iterations += solution.iterations;
-    frame_->states = static_cast<int>(smoother_->size());
-    frame_->inertial = {solution.inertial_chi2, smoother_->size() > 1 ? 9 : 0, false};
+    frames_.take(smoother_->solve(), *smoother_);
     imu_.begin(smoother_->newest());
   }
-
-  // ---- frames
-
-  /// The newest frame is complete when a later state begins.
-  void emit() {
-    if (frame_ && frame_->states > 0) done_.push_back(*frame_);
-    frame_.reset();
-  }
-
-  std::vector<NavFrame> take_frames() { return std::exchange(done_, {}); }
 
   NavigationOptions options_;
   Mounts mounts_;
@@ -314,8 +324,7 @@ class Navigation::Impl {
   bool last_was_by_gnss_ = false;                         ///< what made the state before the newest
   Eigen::Vector3d state_rate_ = Eigen::Vector3d::Zero();  ///< at the newest state
   Eigen::Vector3d last_rate_ = Eigen::Vector3d::Zero();   ///< at the one before
-  std::optional<NavFrame> frame_;
-  std::vector<NavFrame> done_;
+  FrameQueue frames_;
 };
 
 Navigation::Navigation(const NavigationOptions& options, const Mounts& mounts)

@@ -18,6 +18,8 @@ constexpr std::array<std::pair<std::string_view, WheelForm>, 2> kWheelForms{
 constexpr std::array<std::pair<std::string_view, Trigger>, 2> kTriggers{
     {{"gnss", Trigger::kGnss}, {"gnss_and_wheels", Trigger::kGnssAndWheels}}};
 
+constexpr std::array<std::pair<std::string_view, WindowOutput>, 2> kOutputs{
+    {{"newest", WindowOutput::kNewest}, {"oldest", WindowOutput::kOldest}}};
 constexpr std::array<std::pair<std::string_view, Pairing>, 2> kPairings{
     {{"own", Pairing::kOwn}, {"alike", Pairing::kAlike}}};
 
@@ -87,6 +89,8 @@ void bind(Binder& b, WheelOptions& o) {
 void bind_length(Binder& b, WindowOptions& o) {
   b.integer("states", o.states, Range::between(2, 1000), "at most");
   b.number("seconds", o.seconds, Range::non_negative(), "at most; 0 for any");
+  b.choice("output", o.output, kOutputs,
+           "which state is given out: at its own moment, or smoothed, when it leaves the window");
 }
 
 void bind(Binder& b, WindowOptions& o) {

@@ -18,7 +18,7 @@ enum class WheelForm { kVelocity, kWorldVelocity };
 enum class Trigger { kGnss, kGnssAndWheels };
 /// What constrains the two states of Trigger::kGnssAndWheels: each what made it, or both what made
 /// the later one; the earlier one then by the line between two fixes, or by the wheels' speed less
-/// what the IMU says that it changed by. The second counts measurements twice.
+/// what the IMU says that it changed by. The second takes measurements twice, at half their weight.
 enum class Pairing { kOwn, kAlike };
 
 struct GnssOptions {
@@ -58,16 +58,21 @@ struct WheelOptions {
 };
 void bind(config::Binder& binder, WheelOptions& options);
 
+/// Which estimate of a state is given out: that of its own moment, or that which it leaves the
+/// window with, when all that came after has had its say.
+enum class WindowOutput { kNewest, kOldest };
+
 struct WindowOptions {
   int states = 10;
   double seconds = 0;  ///< 0: as many states as there are
+  WindowOutput output = WindowOutput::kNewest;
   int iterations = 4;
   double converged_step = 1e-4;  ///< of any unknown, SI units
   bool first_estimate_jacobians = true;
   double reintegrate_gyro = 0.005;  ///< bias shift beyond which samples are integrated again, rad/s
   double reintegrate_accelerometer = 0.1;
 };
-/// The number of states and their time.
+/// The number of states, their time, and which of them is given out.
 void bind_length(config::Binder& binder, WindowOptions& options);
 /// The rest.
 void bind(config::Binder& binder, WindowOptions& options);
