@@ -28,7 +28,7 @@ int main() {
   print("fixes on the receiver's clock", testing::path_error(testing::fixes_of(*source), *source));
   for (const auto& variant : testing::comma_variants()) {
     const auto run = testing::navigate(*source, variant.settings);
-    print(variant.name, testing::path_error(run.path, *source));
+    print(variant.name.c_str(), testing::path_error(run.path, *source));
     for (const auto& decision : run.decisions) {
       if (decision.name.find("without GNSS") != std::string::npos) {
         std::printf("    %s: %s\n", decision.name.c_str(), decision.value.c_str());

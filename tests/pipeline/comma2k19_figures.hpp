@@ -97,7 +97,7 @@ inline NavigationRun navigate(dataset::Source& source, const std::vector<std::st
 
 /// What the estimate must do better than the fixes with.
 struct CommaVariant {
-  const char* name;
+  std::string name;
   std::vector<std::string> settings;
 };
 

@@ -7,7 +7,10 @@
 namespace traverse::pipeline {
 namespace {
 
-TEST(Comma2k19, IsBetterThanItsFixesWithAndWithoutWheelsAndThroughOutages) {
+TEST(Comma2k19, IsBetterThanItsFixesThroughOutagesWithAndWithoutWheels) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "accuracy is the same in every build, and this takes a minute here";
+#endif
   if (!std::filesystem::exists(testing::comma2k19())) GTEST_SKIP() << "comma2k19 is not there";
   const auto recorded = testing::open_comma2k19({"csv.gnss.period_s=0"});
   const auto raw = testing::path_error(testing::fixes_of(*recorded), *recorded);
@@ -16,6 +19,8 @@ TEST(Comma2k19, IsBetterThanItsFixesWithAndWithoutWheelsAndThroughOutages) {
   EXPECT_LT(on_clock.horizontal_rmse_m, raw.horizontal_rmse_m);
   EXPECT_LT(on_clock.roughness_m, 0.1 * raw.roughness_m);
   for (const auto& variant : testing::comma_variants()) {
+    // Without outages it is easier; tests/bench/comma2k19_bench has all.
+    if (variant.name.find("outages") == std::string::npos) continue;
     const auto run = testing::navigate(*source, variant.settings);
     const auto found = testing::path_error(run.path, *source);
     EXPECT_GT(found.poses, 500U) << variant.name;

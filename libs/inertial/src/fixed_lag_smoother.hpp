@@ -66,6 +66,10 @@ class FixedLagSmoother {
   Solution solve();
 
   std::size_t size() const { return nodes_.size(); }
+  /// Whether append() will marginalise the oldest state, or may.
+  bool is_full() const {
+    return options_.seconds > 0 || nodes_.size() >= static_cast<std::size_t>(options_.states);
+  }
   const NavState& newest() const { return nodes_.back().x; }
   const NavState& state(std::size_t k) const { return nodes_[k].x; }
   /// Of the newest state: after solve() with its factors, after append() without any.

@@ -5,7 +5,12 @@
 namespace traverse::inertial {
 
 void FrameQueue::before_append(const FixedLagSmoother& smoother) {
-  if (output_ == WindowOutput::kNewest || waiting_.size() != smoother.size()) return;
+  const bool may_leave = output_ == WindowOutput::kOldest && smoother.is_full();
+  if (may_leave) keep_covariances(smoother);
+}
+
+void FrameQueue::keep_covariances(const FixedLagSmoother& smoother) {
+  if (waiting_.size() != smoother.size()) return;
   const std::vector<NavState::Matrix> covariances = smoother.covariances();
   for (std::size_t k = 0; k < waiting_.size(); ++k) waiting_[k].covariance = covariances[k];
 }
@@ -28,7 +33,7 @@ void FrameQueue::take(const FixedLagSmoother::Solution& solution,
 }
 
 void FrameQueue::end(const FixedLagSmoother& smoother) {
-  before_append(smoother);
+  if (output_ == WindowOutput::kOldest) keep_covariances(smoother);
   complete(0);
 }
 

@@ -31,6 +31,7 @@ class FrameQueue {
 
  private:
   void complete(std::size_t kept);
+  void keep_covariances(const FixedLagSmoother& smoother);
 
   WindowOutput output_;
   std::deque<NavFrame> waiting_;

@@ -19,6 +19,7 @@
 
 #include "error_figures.hpp"
 #include "figure_maker.hpp"
+#include "navigation_figures.hpp"
 #include "nearest_pose.hpp"
 #include "number_text.hpp"
 #include "series.hpp"
@@ -174,22 +175,6 @@ void add_scan(const RunData& run, FigureMaker& maker) {
             });
 }
 
-/// Stretches of time in which `flags` are not zero, half a frame to each side.
-std::vector<render::Range> spans_where(const std::vector<double>& times,
-                                       const std::vector<double>& flags) {
-  std::vector<render::Range> spans;
-  const double half = times.size() > 1 ? 0.5 * (times[1] - times[0]) : 0.05;
-  for (std::size_t i = 0; i < flags.size(); ++i) {
-    if (flags[i] == 0) continue;
-    if (!spans.empty() && spans.back().high >= times[i] - 1.5 * half) {
-      spans.back().high = times[i] + half;
-    } else {
-      spans.push_back({times[i] - half, times[i] + half});
-    }
-  }
-  return spans;
-}
-
 void add_health(const RunData& run, FigureMaker& maker) {
   if (!run.frames.has("residual_rms_m")) return;
   const std::vector<double> times = seconds_from_start(run);
@@ -257,6 +242,7 @@ std::vector<Figure> draw_figures(const RunData& run, const WorstSegments& worst,
   if (run.map.size() > 0) add_maps(run, maker);
   add_scan(run, maker);
   add_health(run, maker);
+  add_navigation_figures(run, maker);
   add_timing(run, maker);
   return maker.take();
 }
