@@ -339,7 +339,7 @@ FixedLagSmoother::Solution FixedLagSmoother::solve() {
     information_ = symmetric(rows.back().H);
   }
   covariance_ = factorised(information_).solve(Matrix::Identity());
-  if (nodes_.size() > 1) solution.inertial_chi2 = link_terms(nodes_.size() - 2).inertial_chi2;
+  if (nodes_.size() > 1) solution.inertial_chi2 = link_terms(0).inertial_chi2;
   return solution;
 }
 

@@ -39,7 +39,7 @@ class FixedLagSmoother {
   struct Solution {
     int iterations = 0;
     double cost = 0;           ///< half the sum of squares, robust
-    double inertial_chi2 = 0;  ///< of the newest link, 9 rows
+    double inertial_chi2 = 0;  ///< of the oldest link, which has measurements to both sides; 9 rows
   };
 
   FixedLagSmoother(const WindowOptions& options, const ImuNoise& noise,

@@ -52,12 +52,13 @@ void add_navigation_charts(const pipeline::FrameTable& frames, Json& charts) {
   if (!is_navigation(frames)) return;
   add_innovations(frames, charts);
   add_fixes(frames, charts);
-  add_estimated("gyro-bias", "Bias of the gyro", "rad/s", bias_axes(frames, "gyro", "rad_s"),
-                charts);
-  add_estimated("accelerometer-bias", "Bias of the accelerometer", "m/s²",
+  add_estimated("gyro-bias", "Bias of the gyro less its end", "rad/s",
+                bias_axes(frames, "gyro", "rad_s"), charts);
+  add_estimated("accelerometer-bias", "Bias of the accelerometer less its end", "m/s²",
                 bias_axes(frames, "accelerometer", "m_s2"), charts);
-  add_estimated("wheel-scale", "Scale of the wheels", "",
-                {estimated(frames, "scale", "wheel_scale", "wheel_scale_sigma")}, charts);
+  add_estimated("wheel-scale", "Scale of the wheels less its end", "%",
+                {less_its_end(estimated(frames, "scale", "wheel_scale", "wheel_scale_sigma"), 100)},
+                charts);
   add_estimated("wheel-turn", "Turn of the wheels' axes", "deg",
                 {estimated(frames, "pitch", "wheel_pitch_deg", "wheel_pitch_sigma"),
                  estimated(frames, "yaw", "wheel_yaw_deg", "wheel_yaw_sigma")},

@@ -1,5 +1,6 @@
 #include "navigation_figures.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <string>
@@ -114,8 +115,10 @@ void add_biases(const RunData& run, const char* name, const char* title, const c
     panels.add("+3 sigma", above);
     panels.add("-3 sigma", below);
   }
-  draw(panels, name, title, "The bias of each axis, and three standard deviations to both sides.",
-       "estimate and 3 sigma", maker);
+  draw(panels, name, title,
+       "The bias of each axis less what it is at the end, and three standard deviations to both "
+       "sides.",
+       "less the value at the end", maker);
 }
 
 }  // namespace
@@ -123,13 +126,15 @@ void add_biases(const RunData& run, const char* name, const char* title, const c
 std::vector<render::Range> spans_where(const std::vector<double>& times,
                                        const std::vector<double>& flags) {
   std::vector<render::Range> spans;
-  const double half = times.size() > 1 ? 0.5 * (times[1] - times[0]) : 0.05;
-  for (std::size_t i = 0; i < flags.size(); ++i) {
+  const std::size_t count = std::min(times.size(), flags.size());
+  for (std::size_t i = 0; i < count; ++i) {
     if (flags[i] == 0) continue;
-    if (!spans.empty() && spans.back().high >= times[i] - 1.5 * half) {
-      spans.back().high = times[i] + half;
+    const double before = i > 0 ? (times[i] - times[i - 1]) / 2 : 0;
+    const double after = i + 1 < count ? (times[i + 1] - times[i]) / 2 : 0;
+    if (i > 0 && flags[i - 1] != 0) {
+      spans.back().high = times[i] + after;
     } else {
-      spans.push_back({times[i] - half, times[i] + half});
+      spans.push_back({times[i] - before, times[i] + after});
     }
   }
   return spans;

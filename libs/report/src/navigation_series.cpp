@@ -39,12 +39,19 @@ Estimated estimated(const pipeline::FrameTable& frames, std::string name, const 
   return result;
 }
 
+Estimated less_its_end(Estimated one, double factor) {
+  const double end = one.values.empty() ? 0 : one.values.back();
+  for (double& value : one.values) value = factor * (value - end);
+  for (double& deviation : one.three_sigma) deviation *= factor;
+  return one;
+}
+
 std::vector<Estimated> bias_axes(const pipeline::FrameTable& frames, const std::string& sensor,
                                  const std::string& unit) {
   std::vector<Estimated> axes;
   for (const std::string axis : {"x", "y", "z"}) {
     const std::string bias = sensor + "_bias_" + axis;
-    axes.push_back(estimated(frames, axis, bias + "_" + unit, bias + "_sigma"));
+    axes.push_back(less_its_end(estimated(frames, axis, bias + "_" + unit, bias + "_sigma")));
   }
   return axes;
 }

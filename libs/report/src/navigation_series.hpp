@@ -34,7 +34,9 @@ struct Estimated {
 /// Of a column and that of its deviation.
 Estimated estimated(const pipeline::FrameTable& frames, std::string name, const std::string& column,
                     const std::string& sigma);
-/// The three axes of a bias: "gyro", "rad_s" or "accelerometer", "m_s2".
+/// The same less its last value, by `factor`: what it went through shows, whatever it is.
+Estimated less_its_end(Estimated one, double factor = 1);
+/// The three axes of a bias, less their ends: "gyro", "rad_s" or "accelerometer", "m_s2".
 std::vector<Estimated> bias_axes(const pipeline::FrameTable& frames, const std::string& sensor,
                                  const std::string& unit);
 
