@@ -47,42 +47,10 @@ TEST(Navigation, CarriesOnWithWheelsThroughAnOutage) {
   EXPECT_LT(outage.error_m, 4 * outage.sigma_m);
 }
 
-/// Normalised estimation error squared of the 15 unknowns without the wheel scale, averaged over
-/// drives with different noise. Without wheels, whose no-slip is exact here and whose pulses are
-/// no white noise.
 TEST(Navigation, CovarianceIsThatOfItsErrors) {
-  constexpr int kDrives = 16;
-  constexpr int kUnknowns = 15;
-  SimulatedVehicle car;
-  car.light_every_s = 0;
-  double sum = 0;
-  for (int n = 0; n < kDrives; ++n) {
-    SimulatedSensors sensors;
-    sensors.seed = static_cast<std::uint32_t>(n + 1);
-    sensors.gnss_hz = 5;
-    const SimulatedDrive drive = simulate(car, sensors, 45);
-    NavigationOptions options = window(sensors);
-    options.start.accelerometer_bias = sensors.accelerometer_bias;
-    options.gnss.huber = 0;
-    Navigation navigation(options, drive.mounts);
-    const auto frames = testing::run(navigation, drive, true, false);
-    const NavFrame& last = frames.back();
-    const std::size_t k = testing::truth_index(last);
-    NavState truth = last.state;
-    const geometry::Pose3 T = testing::truth_at(last, drive, navigation);
-    truth.q_map_body = Eigen::Quaterniond(T.rotation);
-    truth.p_map = T.translation;
-    truth.v_map = drive.velocity[k];
-    truth.gyro_bias = drive.gyro_bias[k];
-    truth.accelerometer_bias = drive.accelerometer_bias[k];
-    const NavState::Tangent e = truth.minus(last.state);
-    const Eigen::Matrix<double, kUnknowns, kUnknowns> P =
-        last.covariance.topLeftCorner<kUnknowns, kUnknowns>();
-    sum += e.head<kUnknowns>().dot(P.ldlt().solve(e.head<kUnknowns>()));
-  }
-  // 95 % bounds of chi-square with 240 degrees of freedom, over 16.
-  EXPECT_GT(sum / kDrives, 198.98 / kDrives);
-  EXPECT_LT(sum / kDrives, 284.80 / kDrives);
+  const double nees = testing::mean_nees();
+  EXPECT_GT(nees, testing::kLeastNees);
+  EXPECT_LT(nees, testing::kMostNees);
 }
 
 TEST(Navigation, MarginalisesWithoutLoss) {
