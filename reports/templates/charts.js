@@ -41,11 +41,19 @@
     return sums;
   };
 
+  /** Whether the values have a band to both sides: all series then, and no level. */
+  const hasBand = (chart) => chart.series.some((series) => series.band);
+
   const rowsOf = (chart, poses) => {
     const columns = columnsOf(chart);
     const level = chart.level ? [chart.level.value] : [];
+    const cell = (column, k, i) => {
+      const value = chart.log && !(column[i] > 0) ? null : column[i];
+      const band = chart.series[k].band?.[i];
+      return hasBand(chart) ? [value - band, value, value + band] : value;
+    };
     return axisOf(chart, poses).map((x, i) =>
-      [x, ...columns.map((column) => (chart.log && !(column[i] > 0) ? null : column[i])), ...level]);
+      [x, ...columns.map((column, k) => cell(column, k, i)), ...level]);
   };
 
   const readout = (view, row) => {
@@ -132,7 +140,7 @@
       drawPoints: chart.points, pointSize: 2.5, highlightCircleSize: 4, animatedZooms: false,
       axisLabelFontSize: 12, axisLineColor: ink().axis, gridLineColor: ink().grid, rightGap: 12,
       includeZero: !chart.log && chart.series.every((s) => s.values.every((v) => v === null || v >= 0)),
-      connectSeparatedPoints: false,
+      connectSeparatedPoints: false, customBars: hasBand(chart), fillAlpha: 0.15,
       highlightCallback: (event, x, points, row) => (chart.x ? readout(view, row) : hover(view, row)),
       unhighlightCallback: () => (chart.x ? readout(view, null) : hover(view, rowOfPose(view, traverse.pose) ?? 0)),
       zoomCallback: (least, most) => { if (!chart.x) zoom(view, [least, most]); },

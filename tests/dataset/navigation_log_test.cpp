@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fstream>
 #include <numbers>
 #include <string>
@@ -117,6 +118,38 @@ TEST(CsvFolder, TakesTheColumnsThatAreStated) {
   EXPECT_THROW(opened(folder.path()), files::InputError);  // nothing is stated
   EXPECT_THROW(opened(folder.path(), {"csv.gyro={file: gyro.csv, columns: x y w}", statements[1]}),
                files::InputError);
+}
+
+TEST(CsvFolder, PutsReadingsBackOnTheClockOfTheirSensor) {
+  const testing::TemporaryFolder folder;
+  std::string lines = "t,lat,lon,alt\n";
+  std::string unusable = lines;
+  for (int k = 0; k < 40; ++k) {
+    if (k == 20) continue;  // a fix that is missing
+    const double late = 0.03 * ((k * 7) % 5 - 2) / 2;
+    lines += std::to_string(100 + 0.1 * k + late) + ",48,11,500\n";
+    unusable += std::to_string(100 + 0.04 * k) + ",48,11,500\n";
+  }
+  files::write_text(folder.path() / "gnss.csv", lines);
+  files::write_text(folder.path() / "fast.csv", unusable);
+  const auto gnss = [](const char* file, const char* period) {
+    return std::string("csv.gnss={file: ") + file + ", columns: lat lon alt, period_s: " + period +
+           "}";
+  };
+  const auto all = all_of(*opened(folder.path(), {gnss("gnss.csv", "0.1")}));
+  ASSERT_EQ(all.size(), 39U);
+  for (std::size_t k = 1; k < all.size(); ++k) {
+    const double step = geometry::seconds_between(std::get<sensors::GnssFix>(all[k - 1]).stamp,
+                                                  std::get<sensors::GnssFix>(all[k]).stamp);
+    EXPECT_NEAR(step, k == 20 ? 0.2 : 0.1, 1e-3) << k;
+  }
+  // Twice as fast as stated: the stamps stay.
+  const auto fast = opened(folder.path(), {gnss("fast.csv", "0.1")});
+  EXPECT_NEAR(std::get<sensors::GnssFix>(all_of(*fast)[1]).stamp.seconds(), 100.04, 1e-6);
+  const auto& facts = fast->info().facts;
+  EXPECT_TRUE(std::any_of(facts.begin(), facts.end(), [](const Fact& fact) {
+    return fact.value == "as they are: they do not keep the period";
+  }));
 }
 
 TEST(VehicleStatements, PlaceTheSensors) {

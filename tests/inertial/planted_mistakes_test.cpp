@@ -87,6 +87,9 @@ FactorKind kind_with(const Mistake& mistake) {
       kind.blocks.push_back({part + name, 3, false});
     }
     kind.blocks.push_back({"wheel scale" + name, 1, false});
+    kind.blocks.push_back({"wheel turn" + name, 2, false});
+    kind.blocks.push_back({"GNSS latency" + name, 1, false});
+    kind.blocks.push_back({"GNSS bias" + name, 3, false});
   }
   kind.perturbations = {optimization::Perturbation::kRight};
   kind.make = [mistake](optimization::RandomStates& random, optimization::Perturbation) {
@@ -102,6 +105,9 @@ FactorKind kind_with(const Mistake& mistake) {
       sample.state.emplace_back(x.gyro_bias);
       sample.state.emplace_back(x.accelerometer_bias);
       sample.state.emplace_back(Eigen::VectorXd::Constant(1, x.wheel_scale));
+      sample.state.emplace_back(x.wheel_turn);
+      sample.state.emplace_back(Eigen::VectorXd::Constant(1, x.gnss_latency));
+      sample.state.emplace_back(x.gnss_bias);
     }
     return sample;
   };

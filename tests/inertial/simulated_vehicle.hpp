@@ -15,36 +15,33 @@
 namespace traverse::testing {
 
 /// A car on an urban way with exact truth: it stands for 5 s, drives at 10 m/s with quarter turns
-/// and hills, and stops at lights. The body is the IMU; the rear axle moves only along its x axis.
+/// and hills, and stops at lights, where it stands still. The body is the IMU; the rear axle moves
+/// only along its x axis.
 class SimulatedVehicle {
  public:
-  struct Truth {
-    geometry::Pose3 T_map_body;
-    Eigen::Vector3d v_map;
-  };
-
   Eigen::Vector3d imu_from_axle{1.2, 0.1, 0.5};  ///< in the body
   double cruise_mps = 10;
   double light_every_s = 110;  ///< 0: no lights
 
   double speed(double t) const {
-    const double start = smooth((t - 5) / 6);
-    if (light_every_s <= 0) return cruise_mps * start;
-    const double in_cycle = std::fmod(t, light_every_s);
-    const double brake = smooth((in_cycle - (light_every_s - 22)) / 6);
-    const double go = smooth((in_cycle - (light_every_s - 8)) / 6);
-    return cruise_mps * start * (1 - brake + go);
+    return cruise_mps * changes(t, [](double x) { return smooth(x); });
   }
+  /// Along the road since the start [m].
+  double way(double t) const {
+    return cruise_mps * kChange * changes(t, [](double x) { return smooth_integral(x); });
+  }
+  // The road gives the attitude, so that a car that stands does not turn.
   double heading(double t) const {
-    double sum = 0.4;
+    const double s = way(t);
+    double sum = 0.4 + 0.03 * std::sin(0.05 * s);
     for (int k = 0; k < 40; ++k) {
       const double sign = k % 4 < 2 ? 1 : -1;
-      sum += sign * M_PI / 2 * smooth((t - 20 - 23 * k) / 6);
+      sum += sign * M_PI / 2 * smooth((s - 120 - 230 * k) / 60);
     }
-    return sum + 0.03 * std::sin(0.5 * t) * smooth((t - 6) / 4);
+    return sum;
   }
-  double pitch_up(double t) const { return 0.04 * std::sin(0.07 * t) * smooth((t - 6) / 10); }
-  double roll(double t) const { return 0.02 * std::sin(0.31 * t) * smooth((t - 6) / 10); }
+  double pitch_up(double t) const { return 0.04 * std::sin(0.007 * way(t)); }
+  double roll(double t) const { return 0.02 * std::sin(0.031 * way(t)); }
 
   Eigen::Matrix3d rotation(double t) const {
     return geometry::exp_so3({0, 0, heading(t)}) * geometry::exp_so3({0, -pitch_up(t), 0}) *
@@ -76,9 +73,26 @@ class SimulatedVehicle {
   }
 
  private:
+  static constexpr double kChange = 6;  ///< s from rest to cruise, and back
+
+  /// The sum of `f` over the starts less that over the stops, by the share that is over of each.
+  template <typename F>
+  double changes(double t, const F& f) const {
+    double sum = f((t - 5) / kChange);
+    for (double cycle = light_every_s; light_every_s > 0 && cycle - 22 < t;
+         cycle += light_every_s) {
+      sum += f((t - cycle + 8) / kChange) - f((t - cycle + 22) / kChange);
+    }
+    return sum;
+  }
   static double smooth(double x) {
     x = std::clamp(x, 0.0, 1.0);
     return x * x * x * (10 + x * (6 * x - 15));
+  }
+  static double smooth_integral(double x) {
+    if (x > 1) return x - 0.5;
+    x = std::max(x, 0.0);
+    return x * x * x * x * (2.5 + x * (x - 3));
   }
 };
 
@@ -90,12 +104,14 @@ struct SimulatedSensors {
   double accelerometer_bias = 0.1;
   double gnss_hz = 10;
   double gnss_sigma_m = 0.01;    ///< horizontally; twice that in height
+  double gnss_latency_s = 0;     ///< what a fix tells is so old
   double heading_sigma_deg = 0;  ///< of two antennas; 0: there is only one
   Eigen::Vector3d antenna_body{-0.3, 0.2, 0.9};
   double wheel_hz = 10;
   double wheel_offset_s = 0.03;  ///< of the readings from the fixes
   double m_per_pulse = 2 * M_PI * 0.3 / 1024;
-  double wheel_scale = 1.004;  ///< true distance over told distance
+  double wheel_scale = 1.004;        ///< true distance over told distance
+  Eigen::Vector2d wheel_turn{0, 0};  ///< pitch and yaw of their axes from what is told [rad]
   std::uint32_t seed = 1;
 };
 
@@ -148,7 +164,8 @@ inline SimulatedDrive simulate(const SimulatedVehicle& car, const SimulatedSenso
   }
   for (int k = 0; k / s.gnss_hz <= seconds; ++k) {
     const double t = k / s.gnss_hz;
-    const auto& T = drive.truth[static_cast<std::size_t>(std::lround(100 * t))];
+    const double then = std::max(0.0, t - s.gnss_latency_s);
+    const auto& T = drive.truth[static_cast<std::size_t>(std::lround(100 * then))];
     Eigen::Vector3d e = noise(s.gnss_sigma_m);
     e.z() *= 2;
     const auto place = drive.plane.to_geodetic(T * s.antenna_body + e);
@@ -162,20 +179,21 @@ inline SimulatedDrive simulate(const SimulatedVehicle& car, const SimulatedSenso
     }
     drive.fixes.push_back(fix);
   }
-  double way = 0;
-  double last = 0;
   for (int k = 0;; ++k) {
     const double t = k / s.wheel_hz + s.wheel_offset_s;
     if (t > seconds) break;
-    for (; last < t - 1e-9; last += 0.001) way += 0.001 * car.speed(last + 0.0005);
     sensors::WheelOdometry reading;
     reading.stamp = stamp(t);
-    const auto pulses = static_cast<std::int64_t>(std::floor(way / s.wheel_scale / s.m_per_pulse));
+    const auto pulses =
+        static_cast<std::int64_t>(std::floor(car.way(t) / s.wheel_scale / s.m_per_pulse));
     reading.ticks = {pulses, pulses};
     drive.wheels.push_back(reading);
   }
   drive.mounts.antenna_body = s.antenna_body;
   drive.mounts.wheels.p_body = -car.imu_from_axle;
+  // The wheels' axes are the body's, Exp(turn) those that are told.
+  drive.mounts.wheels.R_wheels_body =
+      geometry::exp_so3({0, s.wheel_turn[0], s.wheel_turn[1]}).transpose();
   drive.mounts.encoder = {s.m_per_pulse, s.m_per_pulse};
   return drive;
 }

@@ -16,6 +16,8 @@
 #include "folder_opening.hpp"
 #include "listed_source.hpp"
 #include "navigation_log.hpp"
+#include "regular_clock.hpp"
+#include "vehicle_statements.hpp"
 
 namespace traverse::dataset {
 
@@ -135,7 +137,7 @@ class CsvRecording {
     }
   }
 
-  std::optional<Reference> read_reference(std::vector<Fact>& facts) {
+  std::optional<Reference> read_reference() {
     if (csv_.reference.file.empty()) return std::nullopt;
     const auto poses = rows("csv.reference", csv_.reference, 7, 7);
     if (poses.empty()) return std::nullopt;
@@ -144,11 +146,14 @@ class CsvRecording {
     reference.description = "earth-centred poses in the tangent plane at the first one";
     reference.north_map = Eigen::Vector3d::UnitY();
     const geodesy::LocalTangentPlane plane(geodesy::from_ecef(vector_of(poses.front())));
+    const Eigen::Matrix3d R_body_axes = stated_rotation(
+        statements_, "csv.reference.roll_pitch_yaw_deg", csv_.reference_roll_pitch_yaw_deg);
     for (const CsvRow& row : poses) {
       const Eigen::Quaterniond q(row.values[3], row.values[4], row.values[5], row.values[6]);
       if (q.norm() < 0.5) continue;
-      const geometry::Pose3 pose{plane.R_enu_ecef() * q.normalized().toRotationMatrix(),
-                                 plane.ecef_to_enu(vector_of(row))};
+      const geometry::Pose3 pose{
+          plane.R_enu_ecef() * q.normalized().toRotationMatrix() * R_body_axes.transpose(),
+          plane.ecef_to_enu(vector_of(row))};
       const bool is_later =
           reference.T_map_body.empty() || reference.T_map_body.stamps().back() < row.stamp;
       if (is_later) reference.T_map_body.push_back(row.stamp, pose);
@@ -161,6 +166,7 @@ class CsvRecording {
   std::string reason(const char* key) const { return statements_.reason(key, "default"); }
 
   std::vector<ListedRecord> records;
+  std::vector<Fact> facts;
 
  private:
   std::vector<CsvRow> rows(const std::string& key, const CsvColumns& stated, std::size_t least,
@@ -172,8 +178,28 @@ class CsvRecording {
                                             : fmt::format("{} to {} names", least, most),
                               fmt::format("{}", count));
     }
-    return read_rows(statements_.find_file(key + ".file", stated.file), stated, csv_.time_unit_s,
-                     records);
+    auto rows = read_rows(statements_.find_file(key + ".file", stated.file), stated,
+                          csv_.time_unit_s, records);
+    if (stated.period_s > 0) regularise(key, stated.period_s, rows);
+    return rows;
+  }
+
+  void regularise(const std::string& key, double period_s, std::vector<CsvRow>& rows) {
+    std::vector<Stamp> stamps;
+    for (const CsvRow& row : rows) stamps.push_back(row.stamp);
+    const auto fit = put_on_clock(stamps, period_s);
+    const std::string why = statements_.reason(key + ".period_s", "default");
+    if (!fit) {
+      facts.push_back({key + ", stamps", "as they are: they do not keep the period", why});
+      return;
+    }
+    for (std::size_t k = 0; k < rows.size(); ++k) rows[k].stamp = stamps[k];
+    facts.push_back(
+        {key + ", stamps",
+         fmt::format("put on a clock of {:.7f} s, moved by {:.1f} ms rms and {:.1f} ms "
+                     "at most, {} ticks without a reading",
+                     fit->period_s, 1e3 * fit->rms_moved_s, 1e3 * fit->most_moved_s, fit->missing),
+         why});
   }
 
   static Eigen::Vector3d vector_of(const CsvRow& row) {
@@ -231,7 +257,8 @@ std::unique_ptr<Source> open_csv_folder(const fs::path& folder, const OpenOption
     throw InputError(folder, Place::key("csv"), "statements that tell what the CSV files hold",
                      "none; give a file with --recording-config, see share/recordings");
   }
-  auto reference = recording.read_reference(info.facts);
+  auto reference = recording.read_reference();
+  info.facts.insert(info.facts.end(), recording.facts.begin(), recording.facts.end());
   if (const auto stated = stated_reference(statements); stated && !reference) {
     reference = load_reference(*stated, {}, {}, info.facts);
   }

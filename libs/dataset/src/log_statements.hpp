@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "traverse/config/binder.hpp"
 
@@ -25,6 +26,9 @@ struct CsvColumns {
   std::string file;  ///< empty: the recording has no such sensor
   std::string time = "t";
   std::string columns;  ///< names, blanks between
+  /// Of a sensor with a clock of its own whose readings are stamped when they arrive; 0: the stamps
+  /// are as good as it gets [s].
+  double period_s = 0;
 };
 
 /// The files that make a recording.
@@ -34,6 +38,8 @@ struct CsvStatements {
   CsvColumns gnss;           ///< latitude, longitude [deg], altitude [m]; heading [deg] if there
   CsvColumns wheels;         ///< one or more forward speeds [m/s], of which the mean is taken
   CsvColumns reference;      ///< x y z qw qx qy qz of the body, earth-centred earth-fixed [m]
+  /// Of the axes of the reference's quaternion in the body; [3] or empty.
+  std::vector<double> reference_roll_pitch_yaw_deg;
   AngularUnit angular_rate = AngularUnit::kRadians;
   double time_unit_s = 1;
 };

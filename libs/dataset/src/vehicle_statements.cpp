@@ -57,17 +57,21 @@ void bind(Binder& b, VehicleStatements& v) {
   });
 }
 
+Eigen::Matrix3d stated_rotation(const Statements& statements, const std::string& key,
+                                const std::vector<double>& roll_pitch_yaw_deg) {
+  if (roll_pitch_yaw_deg.empty()) return Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d rpy = kRadiansPerDegree * vector_of(statements, key, roll_pitch_yaw_deg);
+  return geometry::exp_so3({0, 0, rpy.z()}) * geometry::exp_so3({0, rpy.y(), 0}) *
+         geometry::exp_so3({rpy.x(), 0, 0});
+}
+
 void apply_vehicle(const Statements& statements, MountedSensor& sensor) {
   const VehicleStatements& v = statements->vehicle;
   if (sensor.kind == SensorKind::kImu) {
     place(statements, "vehicle.imu.position_m", v.imu_position_m, sensor);
     const std::string key = "vehicle.imu.roll_pitch_yaw_deg";
     if (!statements.states(key)) return;
-    const Eigen::Vector3d rpy =
-        kRadiansPerDegree * vector_of(statements, key, v.imu_roll_pitch_yaw_deg);
-    sensor.T_body_sensor.rotation = geometry::exp_so3({0, 0, rpy.z()}) *
-                                    geometry::exp_so3({0, rpy.y(), 0}) *
-                                    geometry::exp_so3({rpy.x(), 0, 0});
+    sensor.T_body_sensor.rotation = stated_rotation(statements, key, v.imu_roll_pitch_yaw_deg);
   }
   if (sensor.kind == SensorKind::kGnss) {
     place(statements, "vehicle.gnss.position_m", v.gnss_position_m, sensor);

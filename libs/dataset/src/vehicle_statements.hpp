@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -22,6 +23,11 @@ struct VehicleStatements {
   double right_m_per_pulse = 0;
 };
 void bind(config::Binder& binder, VehicleStatements& vehicle);
+
+/// The rotation about x, then y, then z that three numbers in degrees state; the identity for none.
+/// \throws files::InputError for a vector that has not three numbers
+Eigen::Matrix3d stated_rotation(const Statements& statements, const std::string& key,
+                                const std::vector<double>& roll_pitch_yaw_deg);
 
 /// Gives a sensor of the rig what is stated about its kind; what is not stated stays.
 /// \throws files::InputError for a vector that has not three numbers

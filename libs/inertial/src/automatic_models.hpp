@@ -28,12 +28,18 @@ struct State {
         v(blocks[2]),
         gyro_bias(blocks[3]),
         accelerometer_bias(blocks[4]),
-        wheel_scale(*blocks[5]) {}
+        wheel_scale(*blocks[5]),
+        wheel_turn(blocks[6]),
+        gnss_latency(*blocks[7]),
+        gnss_bias(blocks[8]) {}
 
   Quaternion<T> q;
   Matrix3<T> R;
   Vector3<T> p, v, gyro_bias, accelerometer_bias;
   T wheel_scale;
+  Eigen::Matrix<T, 2, 1> wheel_turn;
+  T gnss_latency;
+  Vector3<T> gnss_bias;
 };
 
 /// Away from the identity, where checks are made.
@@ -83,20 +89,27 @@ void inertial(const Preintegration& imu, const Eigen::Vector3d& gravity, const S
 
 template <typename T>
 void prior(const NavState& expected, const State<T>& x, T* residual) {
-  Eigen::Map<Eigen::Matrix<T, 16, 1>> r(residual);
+  Eigen::Map<Eigen::Matrix<T, NavState::kTangent, 1>> r(residual);
   r.template segment<3>(0) = log_quaternion<T>(expected.q_map_body.cast<T>().conjugate() * x.q);
   r.template segment<3>(3) = x.p - expected.p_map.cast<T>();
   r.template segment<3>(6) = x.v - expected.v_map.cast<T>();
   r.template segment<3>(9) = x.gyro_bias - expected.gyro_bias.cast<T>();
   r.template segment<3>(12) = x.accelerometer_bias - expected.accelerometer_bias.cast<T>();
   r[15] = x.wheel_scale - T(expected.wheel_scale);
+  r.template segment<2>(16) = x.wheel_turn - expected.wheel_turn.cast<T>();
+  r[18] = x.gnss_latency - T(expected.gnss_latency);
+  r.template segment<3>(19) = x.gnss_bias - expected.gnss_bias.cast<T>();
 }
 
 template <typename T>
-void gnss_position(const Eigen::Vector3d& z, const Eigen::Vector3d& lever, const State<T>& x,
-                   T* residual) {
+void gnss_position(const AntennaFix& fix, const State<T>& x, T* residual) {
+  const Vector3<T> lever = fix.lever_body.cast<T>();
+  const Vector3<T> turning = fix.angular_rate.cast<T>() - x.gyro_bias;
+  const Vector3<T> v = x.v + x.q * Vector3<T>(turning.cross(lever));
+  const Vector3<T> a = fix.acceleration_map.cast<T>();
+  const T t = x.gnss_latency;
   Eigen::Map<Vector3<T>> r(residual);
-  r = x.q * Vector3<T>(lever.cast<T>()) + x.p - z.cast<T>();
+  r = x.q * lever + x.p - v * t + a * (t * t / T(2)) + x.gnss_bias - fix.p_map.cast<T>();
 }
 
 template <typename T>
@@ -115,7 +128,8 @@ void wheel_velocity(double forward, const WheelMount& mount, const Eigen::Vector
   const Vector3<T> lever = mount.p_body.cast<T>();
   const Vector3<T> at_wheels = x.q.conjugate() * x.v + turning.cross(lever);
   Eigen::Map<Vector3<T>> r(residual);
-  r = mount.R_wheels_body.cast<T>() * at_wheels;
+  const Vector3<T> turn(T(0), x.wheel_turn[0], x.wheel_turn[1]);
+  r = exp_quaternion<T>(turn) * Vector3<T>(mount.R_wheels_body.cast<T>() * at_wheels);
   r[0] -= x.wheel_scale * T(forward);
 }
 

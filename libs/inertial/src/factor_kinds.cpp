@@ -24,9 +24,10 @@ using optimization::RandomStates;
 
 namespace {
 
-constexpr std::array<int, kStateBlocks> kBlockSizes{4, 3, 3, 3, 3, 1};
+constexpr std::array<int, kStateBlocks> kBlockSizes{4, 3, 3, 3, 3, 1, 2, 1, 3};
 constexpr std::array<const char*, kStateBlocks> kBlockNames{
-    "rotation", "position", "velocity", "gyro bias", "accelerometer bias", "wheel scale"};
+    "rotation",    "position",   "velocity",     "gyro bias", "accelerometer bias",
+    "wheel scale", "wheel turn", "GNSS latency", "GNSS bias"};
 
 /// Parts of one or two states (numbers below or from kStateBlocks) that a factor depends on, and
 /// the rows of the residual that are looked at.
@@ -97,6 +98,9 @@ void add_random_state(RandomStates& random, std::vector<Eigen::VectorXd>& state)
   state.emplace_back(random.vector(0.3));
   state.emplace_back(random.vector(0.5));
   state.emplace_back(Eigen::VectorXd::Constant(1, random.uniform(0.9, 1.1)));
+  state.emplace_back(random.vector(0.5).head<2>());
+  state.emplace_back(Eigen::VectorXd::Constant(1, random.uniform(0.05, 0.3)));
+  state.emplace_back(random.vector(2));
 }
 
 NavState random_nav_state(RandomStates& random) {
@@ -190,7 +194,7 @@ WholeSample inertial_sample(RandomStates& random) {
   });
 }
 
-enum Block : int { kQ, kP, kV, kBg, kBa, kS };
+enum Block : int { kQ, kP, kV, kBg, kBa, kS, kTurn, kLatency, kGnss };
 constexpr int kJ = kStateBlocks;  // added to a Block: the same part of the second state
 
 void add_link_kinds(std::vector<FactorKind>& kinds) {
@@ -222,31 +226,52 @@ void add_link_kinds(std::vector<FactorKind>& kinds) {
           r[0] = j.wheel_scale - i.wheel_scale;
         });
       }));
+  kinds.push_back(
+      kind("wheel turn walk", "r = mj - mi", 2, {{kTurn, kTurn + kJ}, 0, 2}, [](RandomStates&) {
+        return of_link(WheelTurnWalkModel{}, [](const auto& i, const auto& j, auto* r) {
+          for (int k = 0; k < 2; ++k) r[k] = j.wheel_turn[k] - i.wheel_turn[k];
+        });
+      }));
+  kinds.push_back(kind(
+      "GNSS latency walk", "r = tj - ti", 2, {{kLatency, kLatency + kJ}, 0, 1}, [](RandomStates&) {
+        return of_link(GnssLatencyWalkModel{}, [](const auto& i, const auto& j, auto* r) {
+          r[0] = j.gnss_latency - i.gnss_latency;
+        });
+      }));
+  kinds.push_back(kind(
+      "GNSS bias walk", "r = cj - a ci", 2, {{kGnss, kGnss + kJ}, 0, 3}, [](RandomStates& random) {
+        const double decay = random.uniform(0.5, 1);
+        return of_link(GnssBiasWalkModel{decay}, [=](const auto& i, const auto& j, auto* r) {
+          for (int k = 0; k < 3; ++k) r[k] = j.gnss_bias[k] - decay * i.gnss_bias[k];
+        });
+      }));
 }
 
 void add_state_kinds(std::vector<FactorKind>& kinds) {
-  kinds.push_back(kind("prior", "r = (Log(R0' R), p - p0, v - v0, bg - bg0, ba - ba0, s - s0)", 1,
-                       {{kQ, kP, kV, kBg, kBa, kS}, 0, 16}, [](RandomStates& random) {
+  kinds.push_back(kind("prior", "r = (Log(R0' R), x - x0 for each other part)", 1,
+                       {{kQ, kP, kV, kBg, kBa, kS, kTurn, kLatency, kGnss}, 0, NavState::kTangent},
+                       [](RandomStates& random) {
                          const NavState expected = random_nav_state(random);
                          return of_state(PriorModel{expected}, [=](const auto& x, auto* r) {
                            automatic::prior(expected, x, r);
                          });
                        }));
   kinds.push_back(
-      kind("GNSS position", "r = p + R l - z", 1, {{kQ, kP}, 0, 3}, [](RandomStates& random) {
-        const Eigen::Vector3d z = random.vector(50);
-        const Eigen::Vector3d lever = random.vector(2);
-        return of_state(GnssPositionModel{z, lever},
-                        [=](const auto& x, auto* r) { automatic::gnss_position(z, lever, x, r); });
-      }));
+      kind("GNSS position", "r = p + R l - t (v + R ((w - bg) x l)) + a t^2 / 2 + c - z", 1,
+           {{kQ, kP, kV, kBg, kLatency, kGnss}, 0, 3}, [](RandomStates& random) {
+             const AntennaFix fix{random.vector(50), random.vector(2), random.vector(1),
+                                  random.vector(3)};
+             return of_state(GnssPositionModel{fix},
+                             [=](const auto& x, auto* r) { automatic::gnss_position(fix, x, r); });
+           }));
   kinds.push_back(
       kind("heading", "r = wrap(atan2(R10, R00) - psi)", 1, {{kQ}, 0, 1}, [](RandomStates& random) {
         const double heading = random.uniform(-3, 3);
         return of_state(HeadingModel{heading},
                         [=](const auto& x, auto* r) { automatic::heading(heading, x, r); });
       }));
-  kinds.push_back(kind("wheel velocity", "r = C (R' v + (w - bg) x l) - s (u, 0, 0)", 1,
-                       {{kQ, kV, kBg, kS}, 0, 3}, [](RandomStates& random) {
+  kinds.push_back(kind("wheel velocity", "r = Exp(0, m) C (R' v + (w - bg) x l) - s (u, 0, 0)", 1,
+                       {{kQ, kV, kBg, kS, kTurn}, 0, 3}, [](RandomStates& random) {
                          const double forward = random.uniform(1, 20);
                          WheelMount mount;
                          mount.R_wheels_body = geometry::exp_so3(random.vector(0.5));

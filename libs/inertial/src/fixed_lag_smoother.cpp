@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -47,17 +48,25 @@ std::pair<double, double> huber_loss(double s, double k) {
 
 }  // namespace
 
+CalibrationWalk calibration_walk(const NavigationOptions& options) {
+  constexpr double kRadiansPerDegree = std::numbers::pi / 180;
+  const GnssOptions& gnss = options.gnss;
+  return {options.wheels.scale_walk,
+          kRadiansPerDegree * options.wheels.turn_walk_deg,
+          gnss.latency_walk,
+          {gnss.bias_horizontal_m, gnss.bias_horizontal_m, gnss.bias_vertical_m},
+          gnss.bias_s};
+}
+
 FixedLagSmoother::FixedLagSmoother(const WindowOptions& options, const ImuNoise& noise,
-                                   double wheel_scale_walk, const Eigen::Vector3d& gravity_map)
-    : options_(options),
-      noise_(noise),
-      wheel_scale_walk_(wheel_scale_walk),
-      gravity_map_(gravity_map) {}
+                                   const CalibrationWalk& calibration,
+                                   const Eigen::Vector3d& gravity_map)
+    : options_(options), noise_(noise), calibration_(calibration), gravity_map_(gravity_map) {}
 
 FixedLagSmoother::FixedLagSmoother(const FixedLagSmoother& other)
     : options_(other.options_),
       noise_(other.noise_),
-      wheel_scale_walk_(other.wheel_scale_walk_),
+      calibration_(other.calibration_),
       gravity_map_(other.gravity_map_),
       nodes_(other.nodes_),
       prior_(other.prior_),
@@ -85,7 +94,12 @@ FixedLagSmoother::Link FixedLagSmoother::make_link(std::shared_ptr<Preintegratio
   link.weight = weight_of(*imu);
   link.gyro_walk = 1 / (noise_.gyro_bias_walk * root_seconds);
   link.accelerometer_walk = 1 / (noise_.accelerometer_bias_walk * root_seconds);
-  link.scale_walk = 1 / (wheel_scale_walk_ * root_seconds);
+  link.scale_walk = 1 / (calibration_.wheel_scale * root_seconds);
+  link.turn_walk = 1 / (calibration_.wheel_turn * root_seconds);
+  link.latency_walk = 1 / (calibration_.gnss_latency * root_seconds);
+  link.gnss_decay = std::exp(-imu->seconds() / calibration_.gnss_bias_s);
+  const double renewed = std::sqrt(1 - link.gnss_decay * link.gnss_decay);
+  link.gnss_walk = (renewed * calibration_.gnss_bias_m).cwiseInverse();
   link.imu = std::move(imu);
   return link;
 }
@@ -116,6 +130,10 @@ void FixedLagSmoother::add(std::unique_ptr<StateFactor> factor) {
   nodes_.back().factors.push_back(std::move(factor));
 }
 
+void FixedLagSmoother::add_to_last(std::unique_ptr<StateFactor> factor) {
+  nodes_[nodes_.size() - 2].factors.push_back(std::move(factor));
+}
+
 std::vector<FactorType> FixedLagSmoother::factors_of(std::size_t k) const {
   std::vector<FactorType> types;
   for (const auto& factor : nodes_[k].factors) types.push_back(factor->type());
@@ -141,7 +159,7 @@ double FixedLagSmoother::add_state_terms(std::size_t k, BlockRow& row) const {
     twice_cost += loss;
   }
   if (k == 0) {
-    Jacobian<16> d;
+    Jacobian<NavState::kTangent> d;
     prior_residual(prior_.at, at, &d);
     const Matrix W = prior_.weight * d;
     const Tangent e = prior_.weight * node.x.minus(prior_.at) + prior_.offset;
@@ -174,19 +192,23 @@ FixedLagSmoother::LinkTerms FixedLagSmoother::link_terms(std::size_t k) const {
   terms.g_j.noalias() = Wj.transpose() * r;
   terms.inertial_chi2 = r.squaredNorm();
 
-  // The walks: r = w (x_j - x_i), so that each adds w^2 to the diagonals.
+  // The walks: r = w (x_j - a x_i), so that each adds (a w)^2 and w^2 to the diagonals.
   constexpr int kWalks = NavState::kTangent - NavState::kGyroBias;
   Eigen::Matrix<double, kWalks, 1> w;
   w << Eigen::Vector3d::Constant(link.gyro_walk),
-      Eigen::Vector3d::Constant(link.accelerometer_walk), link.scale_walk;
+      Eigen::Vector3d::Constant(link.accelerometer_walk), link.scale_walk,
+      Eigen::Vector2d::Constant(link.turn_walk), link.latency_walk, link.gnss_walk;
   Eigen::Matrix<double, kWalks, 1> d;
   d << gyro_bias_walk_residual(i.x, j.x), accelerometer_bias_walk_residual(i.x, j.x),
-      wheel_scale_walk_residual(i.x, j.x);
+      wheel_scale_walk_residual(i.x, j.x), wheel_turn_walk_residual(i.x, j.x),
+      gnss_latency_walk_residual(i.x, j.x), gnss_bias_walk_residual(link.gnss_decay, i.x, j.x);
   const Eigen::Matrix<double, kWalks, 1> squares = w.cwiseAbs2();
-  terms.H_ii.diagonal().tail<kWalks>() += squares;
+  Eigen::Matrix<double, kWalks, 1> a = Eigen::Matrix<double, kWalks, 1>::Ones();
+  a.tail<3>().setConstant(link.gnss_decay);
+  terms.H_ii.diagonal().tail<kWalks>() += squares.cwiseProduct(a.cwiseAbs2());
   terms.H_jj.diagonal().tail<kWalks>() += squares;
-  terms.H_ij.diagonal().tail<kWalks>() -= squares;
-  terms.g_i.tail<kWalks>() -= squares.cwiseProduct(d);
+  terms.H_ij.diagonal().tail<kWalks>() -= squares.cwiseProduct(a);
+  terms.g_i.tail<kWalks>() -= squares.cwiseProduct(a).cwiseProduct(d);
   terms.g_j.tail<kWalks>() += squares.cwiseProduct(d);
   terms.cost = (terms.inertial_chi2 + w.cwiseProduct(d).squaredNorm()) / 2;
   return terms;
@@ -229,6 +251,10 @@ double FixedLagSmoother::cost() const {
     twice += (link.gyro_walk * gyro_bias_walk_residual(i.x, j)).squaredNorm();
     twice += (link.accelerometer_walk * accelerometer_bias_walk_residual(i.x, j)).squaredNorm();
     twice += (link.scale_walk * wheel_scale_walk_residual(i.x, j)).squaredNorm();
+    twice += (link.turn_walk * wheel_turn_walk_residual(i.x, j)).squaredNorm();
+    twice += (link.latency_walk * gnss_latency_walk_residual(i.x, j)).squaredNorm();
+    twice +=
+        link.gnss_walk.cwiseProduct(gnss_bias_walk_residual(link.gnss_decay, i.x, j)).squaredNorm();
   }
   return twice / 2;
 }
@@ -313,8 +339,22 @@ FixedLagSmoother::Solution FixedLagSmoother::solve() {
     information_ = symmetric(rows.back().H);
   }
   covariance_ = factorised(information_).solve(Matrix::Identity());
-  if (nodes_.size() > 1) solution.inertial_chi2 = link_terms(nodes_.size() - 2).inertial_chi2;
+  if (nodes_.size() > 1) solution.inertial_chi2 = link_terms(0).inertial_chi2;
   return solution;
+}
+
+std::vector<NavState::Matrix> FixedLagSmoother::covariances() const {
+  std::vector<BlockRow> rows;
+  build(rows);
+  const std::vector<Cholesky> diagonals = eliminate(rows);
+  std::vector<Matrix> result(rows.size());
+  for (std::size_t k = rows.size(); k-- > 0;) {
+    result[k] = diagonals[k].solve(Matrix::Identity());
+    if (k + 1 == rows.size()) continue;
+    const Matrix M = diagonals[k].solve(rows[k].to_next);
+    result[k] += M * result[k + 1] * M.transpose();
+  }
+  return result;
 }
 
 void FixedLagSmoother::marginalise_oldest() {

@@ -12,6 +12,18 @@
 
 namespace traverse::inertial {
 
+/// How fast what should be constant may change, standard deviation a sqrt(s), and how the bias of
+/// fixes comes and goes.
+struct CalibrationWalk {
+  double wheel_scale;
+  double wheel_turn;            ///< rad
+  double gnss_latency;          ///< s
+  Eigen::Vector3d gnss_bias_m;  ///< standard deviations for good
+  double gnss_bias_s;           ///< time after which a share of 1/e is left
+};
+
+CalibrationWalk calibration_walk(const NavigationOptions& options);
+
 /// The states of the last moments as a chain: each is linked to the next by what the IMU measured
 /// between them and by the walk of its biases, each may have factors of its own, and the oldest has
 /// a prior in which all that is older is kept.
@@ -27,11 +39,11 @@ class FixedLagSmoother {
   struct Solution {
     int iterations = 0;
     double cost = 0;           ///< half the sum of squares, robust
-    double inertial_chi2 = 0;  ///< of the newest link, 9 rows
+    double inertial_chi2 = 0;  ///< of the oldest link, which has measurements to both sides; 9 rows
   };
 
-  FixedLagSmoother(const WindowOptions& options, const ImuNoise& noise, double wheel_scale_walk,
-                   const Eigen::Vector3d& gravity_map);
+  FixedLagSmoother(const WindowOptions& options, const ImuNoise& noise,
+                   const CalibrationWalk& calibration, const Eigen::Vector3d& gravity_map);
 
   /// A copy has pre-integrations of its own, because they are made again when biases move.
   FixedLagSmoother(const FixedLagSmoother& other);
@@ -47,15 +59,23 @@ class FixedLagSmoother {
   void append(std::shared_ptr<Preintegration> imu);
   /// Constrains the newest state.
   void add(std::unique_ptr<StateFactor> factor);
+  /// Constrains the state before the newest. \pre size() > 1
+  void add_to_last(std::unique_ptr<StateFactor> factor);
 
   /// \throws std::runtime_error if the normal equations are not positive definite
   Solution solve();
 
   std::size_t size() const { return nodes_.size(); }
+  /// Whether append() will marginalise the oldest state, or may.
+  bool is_full() const {
+    return options_.seconds > 0 || nodes_.size() >= static_cast<std::size_t>(options_.states);
+  }
   const NavState& newest() const { return nodes_.back().x; }
   const NavState& state(std::size_t k) const { return nodes_[k].x; }
   /// Of the newest state: after solve() with its factors, after append() without any.
   const NavState::Matrix& covariance() const { return covariance_; }
+  /// Of every state, by what the whole window knows; after solve().
+  std::vector<NavState::Matrix> covariances() const;
   /// The types of the factors of state k.
   std::vector<FactorType> factors_of(std::size_t k) const;
 
@@ -69,6 +89,10 @@ class FixedLagSmoother {
     double gyro_walk = 0;  ///< 1 / standard deviation
     double accelerometer_walk = 0;
     double scale_walk = 0;
+    double turn_walk = 0;
+    double latency_walk = 0;
+    Eigen::Vector3d gnss_walk = Eigen::Vector3d::Zero();
+    double gnss_decay = 1;
   };
   struct Node {
     NavState x;
@@ -108,7 +132,7 @@ class FixedLagSmoother {
 
   WindowOptions options_;
   ImuNoise noise_;
-  double wheel_scale_walk_;
+  CalibrationWalk calibration_;
   Eigen::Vector3d gravity_map_;
   std::deque<Node> nodes_;
   Prior prior_;

@@ -12,6 +12,9 @@ NavState NavState::plus(const Tangent& d) const {
   moved.gyro_bias += d.segment<3>(kGyroBias);
   moved.accelerometer_bias += d.segment<3>(kAccelerometerBias);
   moved.wheel_scale += d[kWheelScale];
+  moved.wheel_turn += d.segment<2>(kWheelTurn);
+  moved.gnss_latency += d[kGnssLatency];
+  moved.gnss_bias += d.segment<3>(kGnssBias);
   return moved;
 }
 
@@ -23,6 +26,9 @@ NavState::Tangent NavState::minus(const NavState& origin) const {
   d.segment<3>(kGyroBias) = gyro_bias - origin.gyro_bias;
   d.segment<3>(kAccelerometerBias) = accelerometer_bias - origin.accelerometer_bias;
   d[kWheelScale] = wheel_scale - origin.wheel_scale;
+  d.segment<2>(kWheelTurn) = wheel_turn - origin.wheel_turn;
+  d[kGnssLatency] = gnss_latency - origin.gnss_latency;
+  d.segment<3>(kGnssBias) = gnss_bias - origin.gnss_bias;
   return d;
 }
 

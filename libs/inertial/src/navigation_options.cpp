@@ -18,8 +18,15 @@ constexpr std::array<std::pair<std::string_view, WheelForm>, 2> kWheelForms{
 constexpr std::array<std::pair<std::string_view, Trigger>, 2> kTriggers{
     {{"gnss", Trigger::kGnss}, {"gnss_and_wheels", Trigger::kGnssAndWheels}}};
 
+constexpr std::array<std::pair<std::string_view, WindowOutput>, 2> kOutputs{
+    {{"newest", WindowOutput::kNewest}, {"oldest", WindowOutput::kOldest}}};
+constexpr std::array<std::pair<std::string_view, Pairing>, 2> kPairings{
+    {{"own", Pairing::kOwn}, {"alike", Pairing::kAlike}}};
+
 void bind_common(Binder& b, NavigationOptions& o, bool with_length) {
   b.choice("trigger", o.trigger, kTriggers, "what makes a state");
+  b.choice("pairing", o.pairing, kPairings,
+           "two states by fixes and wheels: each by what made it, or both by what made the later");
   b.number("longest_step_s", o.longest_step_s, Range::positive(),
            "without a fix, after which the wheels make a state");
   b.number("longest_gap_s", o.longest_gap_s, Range::positive(),
@@ -47,6 +54,15 @@ void bind(Binder& b, GnssOptions& o) {
   b.flag("use_covariance", o.use_covariance, "take the covariance that a fix tells");
   b.flag("use_heading", o.use_heading, "take the heading of two antennas");
   b.number("heading_deg", o.heading_deg, Range::positive(), "standard deviation of a heading");
+  b.number("bias_horizontal_m", o.bias_horizontal_m, Range::positive(),
+           "standard deviation of what fixes err by for seconds on end, which is estimated");
+  b.number("bias_vertical_m", o.bias_vertical_m, Range::positive(), "the same");
+  b.number("bias_s", o.bias_s, Range::positive(), "time after which 1/e of that is left");
+  b.number("latency_s", o.latency_s, Range::between(-1, 1),
+           "a fix tells where the antenna was so long before its stamp");
+  b.number("latency_sigma_s", o.latency_sigma_s, Range::positive(),
+           "standard deviation of latency_s, which is estimated");
+  b.number("latency_walk", o.latency_walk, Range::positive(), "of the latency, s a sqrt(s)");
   b.flag("gate", o.gate, "leave out fixes that chi-square finds too unlikely (0.1 %)");
   b.integer("most_rejected", o.most_rejected, Range::between(1, 100000),
             "fixes in a row; the next is taken, whatever it says");
@@ -61,6 +77,9 @@ void bind(Binder& b, WheelOptions& o) {
   b.number("upwards_mps", o.upwards_mps, Range::positive(), "of motion off the ground");
   b.number("scale", o.scale, Range::positive(), "standard deviation of the first scale");
   b.number("scale_walk", o.scale_walk, Range::positive(), "of the scale, a sqrt(s)");
+  b.number("turn_deg", o.turn_deg, Range::positive(),
+           "standard deviation of the pitch and yaw of the wheels' axes, which are estimated");
+  b.number("turn_walk_deg", o.turn_walk_deg, Range::positive(), "of these, a sqrt(s)");
   b.flag("gate", o.gate, "leave out readings that chi-square finds too unlikely (0.1 %)");
   b.flag("zero_velocity", o.zero_velocity, "constrain velocity and gyro bias at stand-still");
   b.number("standing_s", o.standing_s, Range::positive(), "slower than standing_mps for so long");
@@ -70,6 +89,8 @@ void bind(Binder& b, WheelOptions& o) {
 void bind_length(Binder& b, WindowOptions& o) {
   b.integer("states", o.states, Range::between(2, 1000), "at most");
   b.number("seconds", o.seconds, Range::non_negative(), "at most; 0 for any");
+  b.choice("output", o.output, kOutputs,
+           "which state is given out: at its own moment, or smoothed, when it leaves the window");
 }
 
 void bind(Binder& b, WindowOptions& o) {

@@ -16,13 +16,14 @@ constexpr double kUnknownHeading = 1e-3;  // a frame of its own has its heading 
 
 }  // namespace
 
-NavigationStart::NavigationStart(const StartOptions& options, const WheelOptions& wheels,
-                                 const Mounts& mounts, double gravity)
-    : options_(options),
-      wheels_(wheels),
+NavigationStart::NavigationStart(const NavigationOptions& options, const Mounts& mounts,
+                                 double gravity)
+    : options_(options.start),
+      gnss_(options.gnss),
+      wheels_(options.wheels),
       mounts_(mounts),
       gravity_(gravity),
-      finder_(options.stand_still, gravity) {}
+      finder_(options.start.stand_still, gravity) {}
 
 void NavigationStart::add(const sensors::ImuSample& sample) {
   if (!first_sample_) first_sample_ = sample.stamp;
@@ -46,7 +47,12 @@ FirstState NavigationStart::begin(geometry::Stamp stamp) {
   FirstState first;
   first.state.stamp = stamp;
   first.sigma.setOnes();
+  first.state.gnss_latency = gnss_.latency_s;
   first.sigma[NavState::kWheelScale] = wheels_.scale;
+  first.sigma.segment<2>(NavState::kWheelTurn).setConstant(wheels_.turn_deg * kRadiansPerDegree);
+  first.sigma[NavState::kGnssLatency] = gnss_.latency_sigma_s;
+  first.sigma.segment<3>(NavState::kGnssBias) << gnss_.bias_horizontal_m, gnss_.bias_horizontal_m,
+      gnss_.bias_vertical_m;
   first.sigma.segment<3>(NavState::kAccelerometerBias).setConstant(options_.accelerometer_bias);
   if (last_still_) {
     first.state.q_map_body = Eigen::Quaterniond(last_still_->R_level_body);
@@ -108,7 +114,8 @@ std::optional<FirstState> NavigationStart::at_fix(const MapFix& fix) {
   first.sigma[2] = heading_sigma;
   const Eigen::Vector3d fix_sigma = fix.covariance.diagonal().cwiseSqrt();
   first.sigma.segment<3>(NavState::kPosition) =
-      10 * fix_sigma + Eigen::Vector3d::Constant(0.1);  // the fix itself is a factor
+      10 * fix_sigma + Eigen::Vector3d::Constant(0.1) +  // the fix itself is a factor
+      first.sigma.segment<3>(NavState::kGnssBias);
   first.sigma.segment<3>(NavState::kVelocity) =
       Eigen::Vector3d::Constant(is_still ? 0.05 : 1) +
       (part_s > 0 && !is_still ? Eigen::Vector3d(2 * fix_sigma / part_s) : Eigen::Vector3d::Zero());

@@ -6,15 +6,9 @@
 
 #include "traverse/inertial/navigation.hpp"
 
-namespace traverse::inertial {
+#include "map_fix.hpp"
 
-/// A fix in the map frame.
-struct MapFix {
-  geometry::Stamp stamp;
-  Eigen::Vector3d p_antenna_map = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< m^2
-  std::optional<double> heading;  ///< of the body's x axis from east, counterclockwise [rad]
-};
+namespace traverse::inertial {
 
 struct FirstState {
   NavState state;
@@ -27,8 +21,7 @@ struct FirstState {
 /// a stand-still begins a path that has only its own heading.
 class NavigationStart {
  public:
-  NavigationStart(const StartOptions& options, const WheelOptions& wheels, const Mounts& mounts,
-                  double gravity);
+  NavigationStart(const NavigationOptions& options, const Mounts& mounts, double gravity);
 
   void add(const sensors::ImuSample& sample);
   void add_wheels(geometry::Stamp stamp, double forward_mps);
@@ -44,6 +37,7 @@ class NavigationStart {
   FirstState begin(geometry::Stamp stamp);
 
   StartOptions options_;
+  GnssOptions gnss_;
   WheelOptions wheels_;
   Mounts mounts_;
   double gravity_;

@@ -97,8 +97,28 @@ Residual<1> wheel_scale_walk_residual(const NavState& i, const NavState& j, Jaco
   return Residual<1>(j.wheel_scale - i.wheel_scale);
 }
 
-Residual<16> prior_residual(const NavState& expected, const NavState& x, Jacobian<16>* dr_dx) {
-  const Residual<16> r = x.minus(expected);
+Residual<2> wheel_turn_walk_residual(const NavState& i, const NavState& j, Jacobian<2>* dr_di,
+                                     Jacobian<2>* dr_dj) {
+  walk_jacobians<2, NavState::kWheelTurn>(dr_di, dr_dj);
+  return j.wheel_turn - i.wheel_turn;
+}
+
+Residual<1> gnss_latency_walk_residual(const NavState& i, const NavState& j, Jacobian<1>* dr_di,
+                                       Jacobian<1>* dr_dj) {
+  walk_jacobians<1, NavState::kGnssLatency>(dr_di, dr_dj);
+  return Residual<1>(j.gnss_latency - i.gnss_latency);
+}
+
+Residual<3> gnss_bias_walk_residual(double decay, const NavState& i, const NavState& j,
+                                    Jacobian<3>* dr_di, Jacobian<3>* dr_dj) {
+  walk_jacobians<3, NavState::kGnssBias>(dr_di, dr_dj);
+  if (dr_di != nullptr) *dr_di *= decay;
+  return j.gnss_bias - decay * i.gnss_bias;
+}
+
+Residual<NavState::kTangent> prior_residual(const NavState& expected, const NavState& x,
+                                            Jacobian<NavState::kTangent>* dr_dx) {
+  const NavState::Tangent r = x.minus(expected);
   if (dr_dx != nullptr) {
     dr_dx->setIdentity();
     dr_dx->block<3, 3>(NavState::kRotation, NavState::kRotation) =
@@ -107,16 +127,23 @@ Residual<16> prior_residual(const NavState& expected, const NavState& x, Jacobia
   return r;
 }
 
-Residual<3> gnss_position_residual(const Eigen::Vector3d& p_antenna_map,
-                                   const Eigen::Vector3d& lever_body, const NavState& x,
-                                   Jacobian<3>* dr_dx) {
+Residual<3> gnss_position_residual(const AntennaFix& fix, const NavState& x, Jacobian<3>* dr_dx) {
   const Eigen::Matrix3d R = x.rotation();
+  const Eigen::Vector3d& l = fix.lever_body;
+  const double t = x.gnss_latency;
+  const Eigen::Vector3d swing = (fix.angular_rate - x.gyro_bias).cross(l);
+  const Eigen::Vector3d v_antenna = x.v_map + R * swing;
   if (dr_dx != nullptr) {
     dr_dx->setZero();
-    dr_dx->block<3, 3>(0, NavState::kRotation) = -R * hat(lever_body);
+    dr_dx->block<3, 3>(0, NavState::kRotation) = -R * hat(l - t * swing);
     dr_dx->block<3, 3>(0, NavState::kPosition).setIdentity();
+    dr_dx->block<3, 3>(0, NavState::kVelocity) = -t * Eigen::Matrix3d::Identity();
+    dr_dx->block<3, 3>(0, NavState::kGyroBias) = -t * R * hat(l);
+    dr_dx->block<3, 3>(0, NavState::kGnssBias).setIdentity();
+    dr_dx->col(NavState::kGnssLatency) = t * fix.acceleration_map - v_antenna;
   }
-  return x.p_map + R * lever_body - p_antenna_map;
+  return x.p_map + R * l - t * v_antenna + 0.5 * t * t * fix.acceleration_map + x.gnss_bias -
+         fix.p_map;
 }
 
 Residual<1> heading_residual(double heading, const NavState& x, Jacobian<1>* dr_dx) {
@@ -139,14 +166,21 @@ Residual<3> wheel_velocity_residual(double forward_mps, const WheelMount& mount,
   const Eigen::Vector3d v_body = x.rotation().transpose() * x.v_map;
   const Eigen::Vector3d v_at_wheels = v_body + (angular_rate - x.gyro_bias).cross(mount.p_body);
   const Eigen::Vector3d told(forward_mps, 0, 0);
+  const Eigen::Vector3d turn(0, x.wheel_turn[0], x.wheel_turn[1]);
+  const Eigen::Matrix3d R_wheels_body = exp_so3(turn) * mount.R_wheels_body;
+  const Eigen::Vector3d v_wheels = R_wheels_body * v_at_wheels;
   if (dr_dx != nullptr) {
     dr_dx->setZero();
-    dr_dx->block<3, 3>(0, NavState::kRotation) = mount.R_wheels_body * hat(v_body);
-    dr_dx->block<3, 3>(0, NavState::kVelocity) = mount.R_wheels_body * x.rotation().transpose();
-    dr_dx->block<3, 3>(0, NavState::kGyroBias) = mount.R_wheels_body * hat(mount.p_body);
+    dr_dx->block<3, 3>(0, NavState::kRotation) = R_wheels_body * hat(v_body);
+    dr_dx->block<3, 3>(0, NavState::kVelocity) = R_wheels_body * x.rotation().transpose();
+    dr_dx->block<3, 3>(0, NavState::kGyroBias) = R_wheels_body * hat(mount.p_body);
     dr_dx->col(NavState::kWheelScale) = -told;
+    // Exp(a + d) u = Exp(a) Exp(Jr(a) d) u
+    dr_dx->block<3, 2>(0, NavState::kWheelTurn) =
+        (-exp_so3(turn) * hat(mount.R_wheels_body * v_at_wheels) * right_jacobian(turn))
+            .rightCols<2>();
   }
-  return mount.R_wheels_body * v_at_wheels - x.wheel_scale * told;
+  return v_wheels - x.wheel_scale * told;
 }
 
 Residual<6> zero_velocity_residual(const Eigen::Vector3d& angular_rate, const NavState& x,

@@ -8,10 +8,11 @@
 #include "traverse/optimization/rotation_manifold.hpp"
 
 /// A NavState as Ceres' parameter blocks, in this order: quaternion [x y z w] of R_map_body on
-/// RotationManifold, position, velocity, gyro bias, accelerometer bias, wheel scale.
+/// RotationManifold, position, velocity, gyro bias, accelerometer bias, wheel scale, wheel
+/// turn, GNSS latency, GNSS bias.
 namespace traverse::inertial {
 
-inline constexpr int kStateBlocks = 6;
+inline constexpr int kStateBlocks = 9;
 
 inline NavState state_of(double const* const* blocks) {
   using Map = Eigen::Map<const Eigen::Vector3d>;
@@ -23,6 +24,9 @@ inline NavState state_of(double const* const* blocks) {
   x.gyro_bias = Map(blocks[3]);
   x.accelerometer_bias = Map(blocks[4]);
   x.wheel_scale = *blocks[5];
+  x.wheel_turn = Eigen::Map<const Eigen::Vector2d>(blocks[6]);
+  x.gnss_latency = *blocks[7];
+  x.gnss_bias = Map(blocks[8]);
   return x;
 }
 
@@ -45,11 +49,14 @@ void spread(const Jacobian<N>& J, const NavState& x, double** blocks) {
   put.template operator()<3>(blocks[3], J.template middleCols<3>(NavState::kGyroBias));
   put.template operator()<3>(blocks[4], J.template middleCols<3>(NavState::kAccelerometerBias));
   put.template operator()<1>(blocks[5], J.template middleCols<1>(NavState::kWheelScale));
+  put.template operator()<2>(blocks[6], J.template middleCols<2>(NavState::kWheelTurn));
+  put.template operator()<1>(blocks[7], J.template middleCols<1>(NavState::kGnssLatency));
+  put.template operator()<3>(blocks[8], J.template middleCols<3>(NavState::kGnssBias));
 }
 
 /// A residual of one state for Ceres. Model as in ModelFactor.
 template <typename Model>
-class StateCost final : public ceres::SizedCostFunction<Model::kSize, 4, 3, 3, 3, 3, 1> {
+class StateCost final : public ceres::SizedCostFunction<Model::kSize, 4, 3, 3, 3, 3, 1, 2, 1, 3> {
  public:
   explicit StateCost(Model model) : model_(std::move(model)) {}
 
@@ -71,8 +78,8 @@ class StateCost final : public ceres::SizedCostFunction<Model::kSize, 4, 3, 3, 3
 /// Residual<kSize> operator()(const NavState& i, const NavState& j, Jacobian<kSize>* dr_di,
 /// Jacobian<kSize>* dr_dj) const.
 template <typename Model>
-class LinkCost final
-    : public ceres::SizedCostFunction<Model::kSize, 4, 3, 3, 3, 3, 1, 4, 3, 3, 3, 3, 1> {
+class LinkCost final : public ceres::SizedCostFunction<Model::kSize, 4, 3, 3, 3, 3, 1, 2, 1, 3, 4,
+                                                       3, 3, 3, 3, 1, 2, 1> {
  public:
   explicit LinkCost(Model model) : model_(std::move(model)) {}
 

@@ -13,9 +13,10 @@
 
 namespace traverse::inertial {
 
-/// A residual's rows and their derivatives, at most 16, on the stack.
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 16, 1>;
-using RowsJacobian = Eigen::Matrix<double, Eigen::Dynamic, NavState::kTangent, 0, 16, 16>;
+/// A residual's rows and their derivatives, on the stack.
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+using RowsJacobian =
+    Eigen::Matrix<double, Eigen::Dynamic, NavState::kTangent, 0, 6, NavState::kTangent>;
 
 /// The W for which |W r|^2 = r' covariance^-1 r.
 template <int N>
@@ -69,10 +70,9 @@ class ModelFactor final : public StateFactor {
 struct GnssPositionModel {
   static constexpr int kSize = 3;
   static constexpr FactorType kType = FactorType::kGnssPosition;
-  Eigen::Vector3d p_antenna_map;
-  Eigen::Vector3d lever_body;
+  AntennaFix fix;
   Residual<3> operator()(const NavState& x, Jacobian<3>* J) const {
-    return gnss_position_residual(p_antenna_map, lever_body, x, J);
+    return gnss_position_residual(fix, x, J);
   }
 };
 

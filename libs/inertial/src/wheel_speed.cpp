@@ -81,16 +81,28 @@ double WheelSpeed::mean_change(Stamp from, Stamp to) const {
 }
 
 std::optional<double> WheelSpeed::take(Stamp stamp) {
+  taken_.reset();
   const bool is_usable = is_fresh_ && seconds_between(end_, stamp) < kOldest;
   if (!is_usable) return std::nullopt;
   is_fresh_ = false;
-  if (is_instant_) return mean_mps_ + change_at(stamp) - change_at(end_);
+  if (is_instant_) {
+    taken_ = {stamp, mean_mps_ + change_at(stamp) - change_at(end_)};
+    return taken_->mps;
+  }
   if (changes_.empty() || changes_.front().stamp > *begin_) return std::nullopt;
   const double mean = distance_m_ / seconds_between(*begin_, end_);
   const double speed = mean + change_at(stamp) - mean_change(*begin_, end_);
   begin_ = end_;
   distance_m_ = 0;
+  taken_ = {stamp, speed};
   return speed;
+}
+
+std::optional<double> WheelSpeed::taken_at(Stamp stamp) const {
+  const bool is_usable = taken_ && seconds_between(stamp, taken_->stamp) < kOldest &&
+                         !changes_.empty() && changes_.front().stamp <= stamp;
+  if (!is_usable) return std::nullopt;
+  return taken_->mps + change_at(stamp) - change_at(taken_->stamp);
 }
 
 }  // namespace traverse::inertial

@@ -25,6 +25,9 @@ class WheelSpeed {
   /// The speed at `stamp` from the readings since the last call, which are then used up; nothing if
   /// there are none that are younger than kOldest.
   std::optional<double> take(geometry::Stamp stamp);
+  /// The speed at an earlier moment from the readings that the last call took; nothing if that does
+  /// not lie among them or there were none.
+  std::optional<double> taken_at(geometry::Stamp stamp) const;
   /// Whether there is a reading that was not taken yet.
   bool is_fresh() const { return is_fresh_; }
   /// Of the last reading [m/s].
@@ -53,6 +56,11 @@ class WheelSpeed {
   bool is_instant_ = false;  ///< the readings are speeds, not distances
   double mean_mps_ = 0;
   std::optional<geometry::Stamp> slow_since_;
+  struct Taken {
+    geometry::Stamp stamp;
+    double mps;
+  };
+  std::optional<Taken> taken_;  ///< what take() gave
 };
 
 }  // namespace traverse::inertial

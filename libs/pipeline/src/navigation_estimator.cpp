@@ -94,6 +94,18 @@ void for_each_value(const NavFrame& frame, const Add& add) {
   add("sigma_heading_deg", sigma(NavState::kRotation + 2) * kDegrees);
   add("wheel_scale", frame.state.wheel_scale);
   add("wheel_scale_sigma", sigma(NavState::kWheelScale));
+  add("wheel_pitch_deg", frame.state.wheel_turn[0] * kDegrees);
+  add("wheel_pitch_sigma", sigma(NavState::kWheelTurn) * kDegrees);
+  add("wheel_yaw_deg", frame.state.wheel_turn[1] * kDegrees);
+  add("wheel_yaw_sigma", sigma(NavState::kWheelTurn + 1) * kDegrees);
+  add("gnss_latency_s", frame.state.gnss_latency);
+  add("gnss_latency_sigma", sigma(NavState::kGnssLatency));
+  static constexpr std::array<std::string_view, 3> kDirections{"east", "north", "up"};
+  for (int k = 0; k < 3; ++k) {
+    const auto direction = kDirections[static_cast<std::size_t>(k)];
+    add(fmt::format("gnss_bias_{}_m", direction), frame.state.gnss_bias[k]);
+    add(fmt::format("gnss_bias_{}_sigma", direction), sigma(NavState::kGnssBias + k));
+  }
   add("speed_mps", frame.state.v_map.norm());
   add("outage_error_m", frame.outage_error_m);
   add("outage_distance_m", frame.outage_distance_m);
@@ -203,13 +215,11 @@ std::optional<Eigen::Vector3d> NavigationEstimator::north_map() const {
 }
 
 std::vector<optimization::FactorUse> NavigationEstimator::factors() const {
-  std::vector<optimization::FactorUse> uses{{"inertial rotation"},
-                                            {"inertial velocity"},
-                                            {"inertial position"},
-                                            {"gyro bias walk"},
-                                            {"accelerometer bias walk"},
-                                            {"wheel scale walk"},
-                                            {"prior"}};
+  std::vector<optimization::FactorUse> uses{{"inertial rotation"},       {"inertial velocity"},
+                                            {"inertial position"},       {"gyro bias walk"},
+                                            {"accelerometer bias walk"}, {"wheel scale walk"},
+                                            {"wheel turn walk"},         {"GNSS latency walk"},
+                                            {"GNSS bias walk"},          {"prior"}};
   if (!gnss_.empty()) {
     const bool is_pose = options_.gnss.form == inertial::GnssForm::kPose;
     uses.push_back({is_pose ? "GNSS pose" : "GNSS position"});

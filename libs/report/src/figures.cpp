@@ -13,6 +13,7 @@
 #include "figure_maker.hpp"
 #include "loop_figures.hpp"
 #include "map_figures.hpp"
+#include "navigation_figures.hpp"
 #include "number_text.hpp"
 #include "series.hpp"
 
@@ -51,22 +52,6 @@ void add_trajectories(const RunData& run, FigureMaker& maker) {
                   named, reference, maker.caption("Trajectory from the side", path_statistic(run)),
                   style);
             });
-}
-
-/// Stretches of time in which `flags` are not zero, half a frame to each side.
-std::vector<render::Range> spans_where(const std::vector<double>& times,
-                                       const std::vector<double>& flags) {
-  std::vector<render::Range> spans;
-  const double half = times.size() > 1 ? 0.5 * (times[1] - times[0]) : 0.05;
-  for (std::size_t i = 0; i < flags.size(); ++i) {
-    if (flags[i] == 0) continue;
-    if (!spans.empty() && spans.back().high >= times[i] - 1.5 * half) {
-      spans.back().high = times[i] + half;
-    } else {
-      spans.push_back({times[i] - half, times[i] + half});
-    }
-  }
-  return spans;
 }
 
 void add_health(const RunData& run, FigureMaker& maker) {
@@ -137,6 +122,7 @@ std::vector<Figure> draw_figures(const RunData& run, const evaluation::WorstSegm
   add_worst_segment_figures(run, worst, maker);
   add_map_figures(run, maker);
   add_health(run, maker);
+  add_navigation_figures(run, maker);
   add_timing(run, maker);
   return maker.take();
 }

@@ -1,12 +1,11 @@
 #include <algorithm>
-#include <array>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "html_table.hpp"
+#include "navigation_series.hpp"
 #include "number_text.hpp"
 #include "sections.hpp"
 
@@ -19,13 +18,7 @@ namespace {
 HtmlTable innovations_table(const pipeline::FrameTable& frames) {
   HtmlTable table("innovations", "Agreement of the factors",
                   {"factor", "times", "mean chi-square / rows", "largest", "rejected"});
-  constexpr std::array<std::pair<const char*, const char*>, 5> kKinds{
-      {{"gnss", "GNSS"},
-       {"heading", "heading"},
-       {"wheels", "wheels"},
-       {"standing", "stand-still"},
-       {"inertial", "inertial (after the solution)"}}};
-  for (const auto& [column, name] : kKinds) {
+  for (const auto& [column, name] : kInnovationKinds) {
     const std::string prefix = column;
     const auto chi2 = frames.column(prefix + "_chi2");
     const auto rows = frames.column(prefix + "_rows");
@@ -49,7 +42,7 @@ HtmlTable innovations_table(const pipeline::FrameTable& frames) {
 }
 
 HtmlTable biases_table(const pipeline::FrameTable& frames) {
-  HtmlTable table("biases", "Biases and scale",
+  HtmlTable table("biases", "Biases and what else is estimated",
                   {"bias", "at the end", "3 sigma", "3 sigma at the beginning"});
   const auto add = [&](const std::string& name, const std::string& value,
                        const std::string& deviation) {
@@ -68,6 +61,13 @@ HtmlTable biases_table(const pipeline::FrameTable& frames) {
         "accelerometer_bias_" + axis + "_sigma");
   }
   add("wheel scale", "wheel_scale", "wheel_scale_sigma");
+  add("pitch of the wheels' axes [deg]", "wheel_pitch_deg", "wheel_pitch_sigma");
+  add("yaw of the wheels' axes [deg]", "wheel_yaw_deg", "wheel_yaw_sigma");
+  add("latency of the fixes [s]", "gnss_latency_s", "gnss_latency_sigma");
+  for (const std::string direction : {"east", "north", "up"}) {
+    add("fixes, " + direction + " [m]", "gnss_bias_" + direction + "_m",
+        "gnss_bias_" + direction + "_sigma");
+  }
   return table;
 }
 
@@ -87,9 +87,8 @@ HtmlTable outages_table(const pipeline::FrameTable& frames) {
 }  // namespace
 
 void add_navigation(const RunData& run, Model& model) {
-  const bool is_navigation = run.frames.has("inertial_chi2");
-  model.page.set("has_navigation", is_navigation);
-  if (!is_navigation) return;
+  model.page.set("has_navigation", is_navigation(run.frames));
+  if (!is_navigation(run.frames)) return;
   model.add_table(innovations_table(run.frames));
   model.add_table(biases_table(run.frames));
   model.add_table(outages_table(run.frames));

@@ -12,6 +12,9 @@ enum class FactorType {
   kGyroBiasWalk,
   kAccelerometerBiasWalk,
   kWheelScaleWalk,
+  kWheelTurnWalk,
+  kGnssLatencyWalk,
+  kGnssBiasWalk,
   kPrior,
   kGnssPosition,
   kHeading,
@@ -21,11 +24,14 @@ enum class FactorType {
   kWorldVelocity
 };
 
-inline constexpr std::array<std::pair<std::string_view, FactorType>, 11> kFactorTypeNames{
+inline constexpr std::array<std::pair<std::string_view, FactorType>, 14> kFactorTypeNames{
     {{"inertial", FactorType::kInertial},
      {"gyro bias walk", FactorType::kGyroBiasWalk},
      {"accelerometer bias walk", FactorType::kAccelerometerBiasWalk},
      {"wheel scale walk", FactorType::kWheelScaleWalk},
+     {"wheel turn walk", FactorType::kWheelTurnWalk},
+     {"GNSS latency walk", FactorType::kGnssLatencyWalk},
+     {"GNSS bias walk", FactorType::kGnssBiasWalk},
      {"prior", FactorType::kPrior},
      {"GNSS position", FactorType::kGnssPosition},
      {"heading", FactorType::kHeading},

@@ -11,7 +11,7 @@ namespace traverse::inertial {
 /// Where a vehicle is, how it moves, and how its sensors err, at one moment. The body is the IMU's
 /// frame; the map has z up, and x east where the recording has GNSS.
 struct NavState {
-  static constexpr int kTangent = 16;
+  static constexpr int kTangent = 22;
   using Tangent = Eigen::Matrix<double, kTangent, 1>;
   using Matrix = Eigen::Matrix<double, kTangent, kTangent>;
 
@@ -22,7 +22,10 @@ struct NavState {
     kVelocity = 6,  ///< [3] m/s, added in the map frame
     kGyroBias = 9,
     kAccelerometerBias = 12,
-    kWheelScale = 15
+    kWheelScale = 15,
+    kWheelTurn = 16,  ///< [2] rad
+    kGnssLatency = 18,
+    kGnssBias = 19  ///< [3] m, map frame
   };
 
   geometry::Stamp stamp;
@@ -32,6 +35,11 @@ struct NavState {
   Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();           ///< rad/s
   Eigen::Vector3d accelerometer_bias = Eigen::Vector3d::Zero();  ///< m/s^2
   double wheel_scale = 1;  ///< true distance = scale * what the wheels tell
+  /// Pitch and yaw of the wheels' axes from where they are told to be, a rotation vector [rad].
+  Eigen::Vector2d wheel_turn = Eigen::Vector2d::Zero();
+  double gnss_latency = 0;  ///< a fix tells where the antenna was so long before its stamp [s]
+  /// What fixes err by for seconds on end, map frame [m].
+  Eigen::Vector3d gnss_bias = Eigen::Vector3d::Zero();
 
   Eigen::Matrix3d rotation() const { return q_map_body.toRotationMatrix(); }
   geometry::Pose3 T_map_body() const { return {rotation(), p_map}; }

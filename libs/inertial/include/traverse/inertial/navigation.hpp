@@ -26,7 +26,7 @@ struct Mounts {
 };
 
 /// The chi-square of what a factor kind said of a state before it was taken, with the rows it has;
-/// of the inertial factor, after the solution.
+/// of the inertial factor, of the oldest link of the window after the solution.
 struct Innovation {
   double chi2 = 0;
   int rows = 0;  ///< 0: there was none

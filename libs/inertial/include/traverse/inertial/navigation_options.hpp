@@ -16,6 +16,10 @@ enum class GnssForm { kPosition, kPose };
 enum class WheelForm { kVelocity, kWorldVelocity };
 /// What makes a state: each fix, or each fix and each reading of the wheels.
 enum class Trigger { kGnss, kGnssAndWheels };
+/// What constrains the two states of Trigger::kGnssAndWheels: each what made it, or both what made
+/// the later one; the earlier one then by the line between two fixes, or by the wheels' speed less
+/// what the IMU says that it changed by. The second takes measurements twice, at half their weight.
+enum class Pairing { kOwn, kAlike };
 
 struct GnssOptions {
   bool use = true;
@@ -25,9 +29,15 @@ struct GnssOptions {
   bool use_covariance = true;  ///< of the fix, where it has one that is positive definite
   bool use_heading = true;
   double heading_deg = 0.3;
-  bool gate = true;        ///< leave out what chi-square finds too unlikely (0.1 %)
-  int most_rejected = 20;  ///< in a row; the next is taken, whatever it says
-  double huber = 3;        ///< standard deviations; 0 for plain least squares
+  double bias_horizontal_m = 0.001;  ///< standard deviations of what fixes err by for long
+  double bias_vertical_m = 0.001;
+  double bias_s = 60;             ///< time after which a share of 1/e of that is left
+  double latency_s = 0;           ///< a fix tells where the antenna was so long before its stamp
+  double latency_sigma_s = 1e-4;  ///< standard deviation; what is left of it is estimated
+  double latency_walk = 1e-5;     ///< s a sqrt(s)
+  bool gate = true;               ///< leave out what chi-square finds too unlikely (0.1 %)
+  int most_rejected = 20;         ///< in a row; the next is taken, whatever it says
+  double huber = 3;               ///< standard deviations; 0 for plain least squares
 };
 void bind(config::Binder& binder, GnssOptions& options);
 
@@ -37,8 +47,10 @@ struct WheelOptions {
   double forward_mps = 0.05;  ///< standard deviations
   double sideways_mps = 0.1;
   double upwards_mps = 0.1;
-  double scale = 0.02;       ///< of the first scale, about 1
-  double scale_walk = 1e-5;  ///< a sqrt(s)
+  double scale = 0.02;          ///< of the first scale, about 1
+  double scale_walk = 1e-5;     ///< a sqrt(s)
+  double turn_deg = 0.1;        ///< of the first pitch and yaw of the wheels' axes, about 0
+  double turn_walk_deg = 1e-4;  ///< a sqrt(s)
   bool gate = true;
   bool zero_velocity = true;  ///< constrain velocity and gyro bias when they stand still
   double standing_s = 0.5;    ///< without a pulse, or slower than standing_mps
@@ -46,16 +58,21 @@ struct WheelOptions {
 };
 void bind(config::Binder& binder, WheelOptions& options);
 
+/// Which estimate of a state is given out: that of its own moment, or that which it leaves the
+/// window with, when all that came after has had its say.
+enum class WindowOutput { kNewest, kOldest };
+
 struct WindowOptions {
   int states = 10;
   double seconds = 0;  ///< 0: as many states as there are
+  WindowOutput output = WindowOutput::kNewest;
   int iterations = 4;
   double converged_step = 1e-4;  ///< of any unknown, SI units
   bool first_estimate_jacobians = true;
   double reintegrate_gyro = 0.005;  ///< bias shift beyond which samples are integrated again, rad/s
   double reintegrate_accelerometer = 0.1;
 };
-/// The number of states and their time.
+/// The number of states, their time, and which of them is given out.
 void bind_length(config::Binder& binder, WindowOptions& options);
 /// The rest.
 void bind(config::Binder& binder, WindowOptions& options);
@@ -83,6 +100,7 @@ void bind(config::Binder& binder, OutageOptions& options);
 
 struct NavigationOptions {
   Trigger trigger = Trigger::kGnss;
+  Pairing pairing = Pairing::kOwn;
   double longest_step_s = 0.15;  ///< without a fix, after which the wheels make a state
   double longest_gap_s = 1;      ///< of the IMU, after which navigation starts anew
   double gravity = 9.80665;      ///< m/s^2, where no fix tells the latitude

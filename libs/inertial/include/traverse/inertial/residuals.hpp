@@ -24,7 +24,7 @@ Residual<9> inertial_residual(const Preintegration& imu, const Eigen::Vector3d& 
                               const NavState& i, const NavState& j, Jacobian<9>* dr_di = nullptr,
                               Jacobian<9>* dr_dj = nullptr);
 
-/// What two states differ by in a part that only walks: `size` of 3 for the biases.
+/// What two states differ by in a part that only walks.
 Residual<3> gyro_bias_walk_residual(const NavState& i, const NavState& j,
                                     Jacobian<3>* dr_di = nullptr, Jacobian<3>* dr_dj = nullptr);
 Residual<3> accelerometer_bias_walk_residual(const NavState& i, const NavState& j,
@@ -32,15 +32,29 @@ Residual<3> accelerometer_bias_walk_residual(const NavState& i, const NavState& 
                                              Jacobian<3>* dr_dj = nullptr);
 Residual<1> wheel_scale_walk_residual(const NavState& i, const NavState& j,
                                       Jacobian<1>* dr_di = nullptr, Jacobian<1>* dr_dj = nullptr);
+Residual<2> wheel_turn_walk_residual(const NavState& i, const NavState& j,
+                                     Jacobian<2>* dr_di = nullptr, Jacobian<2>* dr_dj = nullptr);
+Residual<1> gnss_latency_walk_residual(const NavState& i, const NavState& j,
+                                       Jacobian<1>* dr_di = nullptr, Jacobian<1>* dr_dj = nullptr);
+/// A first-order Gauss-Markov process. \param decay  share of the bias of i that is left in j
+Residual<3> gnss_bias_walk_residual(double decay, const NavState& i, const NavState& j,
+                                    Jacobian<3>* dr_di = nullptr, Jacobian<3>* dr_dj = nullptr);
 
 /// x less the state `expected`, in the tangent of `expected`.
-Residual<16> prior_residual(const NavState& expected, const NavState& x,
-                            Jacobian<16>* dr_dx = nullptr);
+Residual<NavState::kTangent> prior_residual(const NavState& expected, const NavState& x,
+                                            Jacobian<NavState::kTangent>* dr_dx = nullptr);
 
-/// Where the antenna is less where it was measured, map frame [m]. \param lever_body antenna in the
-/// body frame [m]
-Residual<3> gnss_position_residual(const Eigen::Vector3d& p_antenna_map,
-                                   const Eigen::Vector3d& lever_body, const NavState& x,
+/// A fix of an antenna on a moving body.
+struct AntennaFix {
+  Eigen::Vector3d p_map;                                       ///< measured [m]
+  Eigen::Vector3d lever_body;                                  ///< of the antenna, body frame [m]
+  Eigen::Vector3d angular_rate = Eigen::Vector3d::Zero();      ///< as the IMU read it [rad/s]
+  Eigen::Vector3d acceleration_map = Eigen::Vector3d::Zero();  ///< as predicted [m/s^2]
+};
+
+/// Where the antenna was at the state's latency before it, to second order in time, with the bias
+/// of fixes, less where it was measured, map frame [m].
+Residual<3> gnss_position_residual(const AntennaFix& fix, const NavState& x,
                                    Jacobian<3>* dr_dx = nullptr);
 
 /// The heading of the body's x axis less the one measured, wrapped to (-pi, pi] [rad], from the
@@ -54,8 +68,8 @@ struct WheelMount {
   Eigen::Vector3d p_body = Eigen::Vector3d::Zero();  ///< middle of the rear axle, in the body [m]
 };
 
-/// The velocity at the wheels less scale * (forward, 0, 0), in the wheels' axes [m/s]: what they
-/// tell forward, and that they slip neither sideways nor off the ground.
+/// The velocity at the wheels less scale * (forward, 0, 0), in the wheels' axes as the state turns
+/// them [m/s]: what they tell forward, and that they slip neither sideways nor off the ground.
 /// \param angular_rate  as the IMU read it [rad/s], to carry the velocity over the lever arm
 Residual<3> wheel_velocity_residual(double forward_mps, const WheelMount& mount,
                                     const Eigen::Vector3d& angular_rate, const NavState& x,

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "traverse/inertial/nav_state.hpp"
+#include "traverse/inertial/preintegration.hpp"
+#include "traverse/sensors/imu_sample.hpp"
+
+namespace traverse::inertial {
+
+/// `before` and `after` at a moment between them.
+sensors::ImuSample interpolated(const sensors::ImuSample& before, const sensors::ImuSample& after,
+                                geometry::Stamp stamp);
+
+/// What the IMU has measured since the newest state, up to its last reading.
+class ImuLink {
+ public:
+  explicit ImuLink(const ImuNoise& noise) : noise_(noise) {}
+  /// A copy has a pre-integration of its own, which samples join.
+  ImuLink(const ImuLink& other);
+  ImuLink& operator=(const ImuLink&) = delete;
+
+  /// Begins at `state`, keeping the last reading.
+  void begin(const NavState& state);
+
+  /// What a step of the IMU did.
+  struct Step {
+    double speed_change_mps = 0;  ///< forward
+    double way_m = 0;
+    bool is_gap = false;  ///< longer than readings of an IMU are apart
+  };
+  /// Integrates from the last reading to `sample`. \pre begin() was called, last() is earlier
+  Step add(const sensors::ImuSample& sample, const NavState& newest,
+           const Eigen::Vector3d& gravity_map);
+
+  const std::optional<sensors::ImuSample>& last() const { return last_; }
+  void set_last(const std::optional<sensors::ImuSample>& sample) { last_ = sample; }
+
+  /// Ready to be a link of the chain.
+  std::shared_ptr<Preintegration> take();
+
+  /// The acceleration in the map at the last reading, with the attitude and bias of `state`.
+  Eigen::Vector3d acceleration(const NavState& state, const Eigen::Vector3d& gravity_map) const;
+
+ private:
+  ImuNoise noise_;
+  std::shared_ptr<Preintegration> imu_;
+  std::optional<sensors::ImuSample> last_;
+  double forward_mps_ = 0;  ///< predicted, at the last reading
+};
+
+}  // namespace traverse::inertial
