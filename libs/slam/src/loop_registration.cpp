@@ -94,10 +94,11 @@ LoopRegistration register_in(const Submap& submap, const lidar::voxel::SweepSamp
                              const LoopRegistrationOptions& options) {
   lidar::voxel::Workers alone(1);
   lidar::StageTimes ignored;
+  lidar::voxel::ScanMatches matches;
   const lidar::voxel::MotionModel standing{{}, 1, false};  // keyframes are deskewed
   const auto align_from = [&](const geometry::Pose3& start, const AlignmentOptions& how,
                               const Effort& effort) {
-    return align(features, submap.map, standing, start, how, effort, alone, ignored);
+    return align(features, submap.map, standing, start, how, effort, alone, matches, ignored);
   };
 
   geometry::Pose3 best = starts_centre_lidar.front();
