@@ -27,7 +27,7 @@ struct OpenRequest {
   std::string script;
   std::string output_folder = ".";
   int width = 1400;
-  int height = 880;
+  int height = 910;
   bool keep_index = true;
 };
 

@@ -68,7 +68,10 @@ ScanColours scaled(const std::vector<float>& values, std::size_t count, render::
 
 ScanColours by_class(const ShownScan& scan) {
   const std::size_t count = scan.points_body.size();
-  if (scan.feature_class.size() != count) return grey(count, "class: not known for this scan");
+  if (scan.feature_class.size() != count) {  // a 2-D laser's, say: to be seen before the map
+    const Colour plain = render::palette::kOrange;
+    return {std::vector<Colour>(count, plain), {"class: not known for this scan", {plain}, {""}}};
+  }
   const std::array<Colour, lidar::kFeatureClasses> colours{
       render::dark_theme().other, render::palette::kSharp, render::palette::kLessSharp,
       render::palette::kFlat, render::palette::kLessFlat};
