@@ -127,9 +127,8 @@ void add_timing(const RunData& run, FigureMaker& maker) {
 }  // namespace
 
 std::vector<Figure> draw_figures(const RunData& run, const evaluation::WorstSegments& worst,
-                                 int width,
-                                 const std::function<void(const std::string&)>& picture_drawn) {
-  FigureMaker maker(run, width, picture_drawn);
+                                 const RunReportOptions& options) {
+  FigureMaker maker(run, options);
   add_trajectories(run, maker);
   if (run.evaluation.comparison) add_error_figures(run, maker);
   add_worst_segment_figures(run, worst, maker);
