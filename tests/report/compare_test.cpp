@@ -57,7 +57,7 @@ TEST_F(Compare, TellsWhatIsBetterAndWhatIsTheSame) {
   EXPECT_EQ(verdict("good", "RPE over 10 frames"), "improved");
   EXPECT_EQ(verdict("same", "RPE over 10 frames"), "no change");
   EXPECT_EQ(verdict("good", "Time a frame"), "no change");
-  EXPECT_THAT(table, HasSubstr("good: RPE over 10 frames improved"));
+  EXPECT_THAT(table, HasSubstr("good: 3 improved; same: nothing changed;"));
   EXPECT_EQ(json()["tables"]["wins"]["rows"][0][1], 0);  // the bad one is best nowhere
 }
 
