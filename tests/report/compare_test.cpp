@@ -62,7 +62,8 @@ TEST_F(Compare, TellsWhatIsBetterAndWhatIsTheSame) {
 }
 
 TEST_F(Compare, TheOtherWayRoundItHasRegressed) {
-  compare({run("good", 0.1), run("bad", 1.0)});
+  EXPECT_THAT(compare({run("good", 0.1), run("bad", 1.0)}),
+              HasSubstr("bad: RPE over 10 frames regressed"));
   EXPECT_EQ(verdict("bad", "RPE over 10 frames"), "regressed");
   EXPECT_GT(json()["tables"]["wins"]["rows"][0][1], 10);
 }
