@@ -18,6 +18,7 @@ namespace {
 constexpr const char* kExamples = R"(Examples:
   traverse report RUN                                    report.html, report.json, images/
   traverse report RUN --no-pictures                      the interactive page alone, faster
+  traverse report RUN --print-width 8192                 maps for a poster: images/*_print.png
   traverse report RUN --budget share/budgets/kitti.yaml  also says whether limits are kept
   traverse report RUN --export tables                    every table as CSV and LaTeX)";
 
@@ -42,6 +43,10 @@ void add_report(CLI::App& app) {
                    "pixels of a picture; the page grows with it")
       ->check(CLI::Range(480, 8192))
       ->capture_default_str();
+  report
+      ->add_option("--print-width", arguments->options.print_width,
+                   "also draw maps and scans so wide, for paper: images/NAME_print.png")
+      ->check(CLI::Range(1600, 8192));
   report
       ->add_option("--export", arguments->options.exports,
                    "folder for every table of the report as CSV and LaTeX")

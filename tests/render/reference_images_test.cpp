@@ -11,6 +11,7 @@
 #include "traverse/geometry/trajectory.hpp"
 #include "traverse/render/pictures/map_from_above.hpp"
 #include "traverse/render/pictures/map_in_perspective.hpp"
+#include "traverse/render/pictures/scan_matches.hpp"
 #include "traverse/render/pictures/time_series.hpp"
 #include "traverse/render/pictures/violins.hpp"
 #include "traverse/render/renderer.hpp"
@@ -90,6 +91,29 @@ TEST(ReferenceImages, MapInPerspective) {
   const Street street;
   compare_with_reference(map_in_perspective(street.points(), {}, street.way, kCaption, small(true)),
                          "map-in-perspective");
+}
+
+TEST(ReferenceImages, MapWithNorth) {
+  const Street street;
+  compare_with_reference(map_from_above(street.points(), {}, &street.way, kCaption, small(true),
+                                        Eigen::Vector3d(-0.5, 1, 0)),
+                         "map-with-north");
+}
+
+TEST(ReferenceImages, ScanMatches) {
+  const Street street;
+  std::vector<float> x, y, z, pulled, none;
+  for (std::size_t i = 0; i < street.x.size(); i += 20) {
+    x.push_back(street.x[i]);
+    y.push_back(street.y[i]);
+    z.push_back(street.z[i]);
+    pulled.push_back(0.1F + 0.05F * std::sin(street.x[i]));  // to the left: the pose is off
+    none.push_back(0);
+  }
+  const MapPoints matches{x, y, z, Eigen::Vector3d::Zero()};
+  compare_with_reference(
+      scan_matches({street.points(), matches, none, pulled, none}, street.way, kCaption, small()),
+      "scan-matches");
 }
 
 TEST(ReferenceImages, TimeSeriesAndViolins) {

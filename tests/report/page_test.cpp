@@ -214,6 +214,22 @@ TEST(RunReport, WritesPicturesAndOnePage) {
               HasSubstr(files::read_text(files.report_json()).substr(0, 5000)));
 }
 
+TEST(RunReport, DrawsMapsLargeForPaperBesideThePage) {
+  const MadeRun run(0.1);
+  RunReportOptions options;
+  options.picture_width = 480;
+  options.print_width = 1700;
+  write_run_report(run.folder.path(), kTemplates, options);
+  const pipeline::RunFolder files{run.folder.path()};
+  const std::string png = files::read_text(files.images() / "map-height_print.png");
+  // The width stands in bytes 16 to 19 of a PNG file, most significant first.
+  EXPECT_EQ(256 * static_cast<unsigned char>(png.at(18)) + static_cast<unsigned char>(png.at(19)),
+            1700);
+  EXPECT_FALSE(std::filesystem::exists(files.images() / "error-over-time_print.png"))
+      << "lines have SVG and PDF";
+  EXPECT_THAT(files::read_text(files.report()), Not(HasSubstr("_print")));
+}
+
 TEST(RunReport, ShowsHowFramesOfTheWorstSegmentsWereRegistered) {
   const MadeRun run(0.1);
   const pipeline::RunFolder files{run.folder.path()};

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
@@ -114,13 +115,15 @@ std::string sentence(const Json& differences) {
   }
   std::string text;
   for (const Changes& run : runs) {
-    if (runs.size() > 1) {
-      text += run.told.empty() ? fmt::format("{}: nothing changed; ", run.run)
-                               : fmt::format("{}: {} improved, {} regressed; ", run.run,
-                                             run.improved, run.regressed);
+    if (runs.size() == 1) {
+      for (const std::string& change : run.told) text += fmt::format("{}: {}; ", run.run, change);
       continue;
     }
-    for (const std::string& change : run.told) text += fmt::format("{}: {}; ", run.run, change);
+    std::vector<std::string> counts;
+    if (run.improved > 0) counts.push_back(fmt::format("{} improved", run.improved));
+    if (run.regressed > 0) counts.push_back(fmt::format("{} regressed", run.regressed));
+    if (counts.empty()) counts.emplace_back("nothing changed");
+    text += fmt::format("{}: {}; ", run.run, fmt::join(counts, ", "));
   }
   return text + fmt::format("{} without a change that is sure.", plural(unchanged, "figure"));
 }

@@ -11,14 +11,25 @@
 
 namespace traverse::report {
 
-FigureMaker::FigureMaker(const RunData& run, int width,
-                         const std::function<void(const std::string&)>& picture_drawn)
-    : run_(run), picture_drawn_(picture_drawn), images_(pipeline::RunFolder{run.folder}.images()) {
+namespace {
+
+render::Style of_width(render::Style style, int width) {
+  style.height = style.height * width / style.width;
+  style.width = width;
+  return style;
+}
+
+}  // namespace
+
+FigureMaker::FigureMaker(const RunData& run, const RunReportOptions& options)
+    : run_(run),
+      picture_drawn_(options.picture_drawn),
+      images_(pipeline::RunFolder{run.folder}.images()) {
   files::make_writable_folder(images_);
-  light_.height = light_.height * width / light_.width;
-  light_.width = width;
+  light_ = of_width(light_, options.picture_width);
   dark_ = light_;
   dark_.theme = render::dark_theme();
+  if (options.print_width) print_ = of_width(light_, *options.print_width);
 }
 
 FigureMaker::~FigureMaker() {
@@ -66,6 +77,14 @@ void FigureMaker::finish(const render::Drawing& drawing, const std::string& file
     const std::lock_guard lock(figures_mutex_);
     (dark ? figures_[index].dark : figures_[index].light) = std::move(uri);
   });
+}
+
+void FigureMaker::print(const render::Drawing& drawing, const std::string& file) {
+  if (render::is_vector(drawing)) return;
+  writers_.wait();  // one large picture at a time: it takes 126 MB at the largest
+  const auto image = std::make_shared<const render::Image>(renderer_.render(drawing));
+  writers_.run(
+      [this, file, image] { files::write_text(images_ / (file + ".png"), image->encode_png()); });
 }
 
 std::vector<Figure> FigureMaker::take() {

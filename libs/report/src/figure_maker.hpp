@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,8 +23,7 @@ namespace traverse::report {
 /// compressed and written by other threads.
 class FigureMaker {
  public:
-  FigureMaker(const RunData& run, int width,
-              const std::function<void(const std::string&)>& picture_drawn);
+  FigureMaker(const RunData& run, const RunReportOptions& options);
   ~FigureMaker();
   FigureMaker(const FigureMaker&) = delete;
   FigureMaker& operator=(const FigureMaker&) = delete;
@@ -45,6 +45,7 @@ class FigureMaker {
     const std::size_t index = begin({name, section, text, replaced_by, {}, {}});
     finish(draw(sized(light_, share)), name, index, false);
     finish(draw(sized(dark_, share)), name + "_dark", index, true);
+    if (print_) print(draw(*print_), name + "_print");
     picture_drawn_(name);
   }
 
@@ -57,12 +58,16 @@ class FigureMaker {
   void finish(const render::Drawing& drawing, const std::string& file, std::size_t index,
               bool dark);
 
+  /// Lines have their SVG and PDF for paper: only point clouds are written.
+  void print(const render::Drawing& drawing, const std::string& file);
+
   const RunData& run_;
-  const std::function<void(const std::string&)>& picture_drawn_;
+  std::function<void(const std::string&)> picture_drawn_;
   std::filesystem::path images_;
   render::Renderer renderer_;
   render::Style light_;
   render::Style dark_;
+  std::optional<render::Style> print_;  ///< large, for paper
   std::vector<Figure> figures_;
   std::mutex figures_mutex_;  ///< of figures_, which grows while others are filled
   tbb::task_group writers_;

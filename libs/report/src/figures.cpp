@@ -113,9 +113,8 @@ void add_timing(const RunData& run, FigureMaker& maker) {
 }  // namespace
 
 std::vector<Figure> draw_figures(const RunData& run, const evaluation::WorstSegments& worst,
-                                 int width,
-                                 const std::function<void(const std::string&)>& picture_drawn) {
-  FigureMaker maker(run, width, picture_drawn);
+                                 const RunReportOptions& options) {
+  FigureMaker maker(run, options);
   add_trajectories(run, maker);
   add_loop_figures(run, maker);
   if (run.evaluation.comparison) add_error_figures(run, maker);

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <string>
 #include <vector>
+
+#include "traverse/report/run_report.hpp"
 
 #include "run_data.hpp"
 
@@ -24,11 +25,10 @@ struct Figure {
   std::string dark;
 };
 
-/// Draws every picture that the run has data for, `width` pixels wide, and writes them to
-/// images/NAME.png and images/NAME_dark.png; those without point clouds also to images/NAME.svg and
-/// images/NAME.pdf. \throws files::OutputError
+/// Draws every picture that the run has data for and writes them to images/NAME.png and
+/// images/NAME_dark.png; those without point clouds also to images/NAME.svg and images/NAME.pdf,
+/// the others for print, if that is asked for. \throws files::OutputError
 std::vector<Figure> draw_figures(const RunData& run, const evaluation::WorstSegments& worst,
-                                 int width,
-                                 const std::function<void(const std::string&)>& picture_drawn);
+                                 const RunReportOptions& options);
 
 }  // namespace traverse::report

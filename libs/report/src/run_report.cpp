@@ -24,8 +24,7 @@ std::optional<BudgetResult> write_run_report(const std::filesystem::path& run_fo
   const evaluation::WorstSegments worst =
       evaluation::worst_segments(run.evaluation, run.frames.column("residual_rms_m"));
   std::vector<Figure> pictures;
-  if (options.pictures)
-    pictures = draw_figures(run, worst, options.picture_width, options.picture_drawn);
+  if (options.pictures) pictures = draw_figures(run, worst, options);
 
   ReportModel report = make_model(run, figures, worst, budget ? &*budget : nullptr);
   const std::string page = make_page(report.model, report.packed_points, pictures, templates);

@@ -10,8 +10,10 @@
 namespace traverse::report {
 
 struct RunReportOptions {
-  bool pictures = true;                          ///< draw images/*.png and put them into the page
-  int picture_width = 1600;                      ///< pixels; up to 8192 for print
+  bool pictures = true;      ///< draw images/*.png and put them into the page
+  int picture_width = 1600;  ///< pixels
+  /// Also writes those of point clouds so wide, for paper: images/NAME_print.png, up to 8192.
+  std::optional<int> print_width;
   std::optional<std::filesystem::path> budget;   ///< limits to check; shown on the page
   std::optional<std::filesystem::path> exports;  ///< folder for every table as CSV and LaTeX
   /// Called with the name of each picture that is finished, from one thread at a time.
