@@ -29,6 +29,8 @@ void bind(config::Binder& b, SlamEstimatorOptions& o) {
              "of a fix that does not tell its covariance");
     g.number("least_sigma_m", o.gnss.least_sigma_m, Range::positive(), "believed of any fix");
   });
+  b.group("localize", "follow the recording in a given map instead",
+          [&](config::Binder& g) { bind(g, o.localization); });
   bind(b, o.slam);
 }
 

@@ -11,6 +11,7 @@
 #include "traverse/slam/slam.hpp"
 
 #include "lidar_estimator.hpp"
+#include "localizing_estimator.hpp"
 
 namespace traverse::pipeline {
 
@@ -24,6 +25,7 @@ struct SlamGnssOptions {
 struct SlamEstimatorOptions {
   bool use = false;  ///< off: odometry alone
   SlamGnssOptions gnss;
+  LocalizationOptions localization;  ///< with a map: no map is built, it is followed
   slam::SlamOptions slam;
 };
 void bind(config::Binder& binder, SlamEstimatorOptions& options);
