@@ -53,7 +53,7 @@ std::vector<MapKeyframe> run(const simulation::AnalyticScene& scene, const Pose3
     keyframe.T_map_body = T_world_map.inverse() * T_world_body;
     const Eigen::Vector3d origin = T_world_body * keyframe.p_body_sensor;
     for (double elevation = -20; elevation <= 12; elevation += 1.5) {
-      for (double azimuth = 0; azimuth < 360; azimuth += 1) {
+      for (double azimuth = 0; azimuth < 360; azimuth += 1.5) {
         const Eigen::Vector3d u_body(std::cos(elevation * kDegree) * std::cos(azimuth * kDegree),
                                      std::cos(elevation * kDegree) * std::sin(azimuth * kDegree),
                                      std::sin(elevation * kDegree));
@@ -77,9 +77,9 @@ const Pose3 kOtherFrame{geometry::exp_so3({0.01, -0.02, 2.1}), {-50, 80, 5}};
 
 MergeOptions quick() {
   MergeOptions options;
-  options.samples = 6;
-  options.candidates = 2;
-  options.search_m = 2;
+  options.samples = 8;
+  options.candidates = 3;
+  options.search_m = 1.5;
   return options;
 }
 

@@ -141,12 +141,11 @@ class Merger {
         std::min<std::size_t>(runs_[run].size(), static_cast<std::size_t>(options_.samples));
     for (std::size_t s = 0; s < samples; ++s) {
       const std::size_t keyframe = s * runs_[run].size() / samples;
-      for (const auto& [number, turn] : lookalikes(run, keyframe, known, ring_keys)) {
-        const geometry::Pose3 guess{geometry::exp_so3({0, 0, turn}), Eigen::Vector3d::Zero()};
-        const PlacedKeyframeId& at = known[number];
+      for (const Lookalike& like : lookalikes(run, keyframe, known, ring_keys)) {
+        const PlacedKeyframeId& at = known[like.number];
         const auto found = place(
             runs_[run], keyframe, runs_[at.run].submap(at.keyframe, options_.keyframes_around),
-            guess, {options_.search_m, options_.search_deg * kDegree}, options_);
+            like.T_known_keyframe, {options_.search_m, options_.search_deg * kDegree}, options_);
         if (!found) continue;
         const geometry::Pose3 T_map_keyframe = T_map_sensor(at) * found->T_other_keyframe;
         hypotheses.push_back({keyframe, T_map_keyframe,
@@ -166,30 +165,40 @@ class Merger {
   };
 
   struct Lookalike {
-    std::size_t number;
-    double turn_rad;
+    double distance = 1;     ///< of the contexts
+    std::size_t number = 0;  ///< of the known keyframe
+    geometry::Pose3 T_known_keyframe;
   };
-  /// Each also turned round: a street looks much alike in both directions, from above.
+  /// The known keyframes that look most like a keyframe of a run, also from other lanes. Each comes
+  /// turned round as well: from above a street looks much alike in both directions.
   std::vector<Lookalike> lookalikes(std::size_t run, std::size_t keyframe,
                                     const std::vector<PlacedKeyframeId>& known,
                                     const slam::PlaceIndex& ring_keys) const {
-    constexpr std::size_t kRingKeys = 30;
-    const slam::ScanContext& context = runs_[run].context(keyframe);
-    std::vector<std::pair<double, Lookalike>> compared;
-    for (const auto& found : ring_keys.nearest(context.ring_key(), kRingKeys)) {
-      const PlacedKeyframeId& at = known[found.number];
-      const auto match = slam::ScanContext::compare(runs_[at.run].context(at.keyframe), context);
-      compared.push_back({match.distance, {found.number, match.turn_rad}});
+    constexpr std::size_t kRingKeys = 20;
+    std::vector<Lookalike> compared;
+    for (const double left_m : {0.0, 2.0, -2.0, 4.0, -4.0}) {
+      const slam::ScanContext context = runs_[run].context_beside(keyframe, left_m);
+      for (const auto& found : ring_keys.nearest(context.ring_key(), kRingKeys)) {
+        const PlacedKeyframeId& at = known[found.number];
+        const auto match = slam::ScanContext::compare(runs_[at.run].context(at.keyframe), context);
+        const Eigen::Matrix3d turn = geometry::exp_so3({0, 0, match.turn_rad});
+        compared.push_back(
+            {match.distance, found.number, {turn, turn * Eigen::Vector3d(0, -left_m, 0)}});
+      }
     }
     std::stable_sort(compared.begin(), compared.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
+                     [](const auto& a, const auto& b) { return a.distance < b.distance; });
     std::vector<Lookalike> best;
-    if (compared.size() > static_cast<std::size_t>(options_.candidates)) {
-      compared.resize(static_cast<std::size_t>(options_.candidates));
-    }
-    for (const auto& [distance, lookalike] : compared) {
-      best.push_back(lookalike);
-      best.push_back({lookalike.number, lookalike.turn_rad + std::numbers::pi});
+    for (const Lookalike& one : compared) {
+      if (best.size() == 2 * static_cast<std::size_t>(options_.candidates)) break;
+      const bool is_there = std::any_of(best.begin(), best.end(), [&](const Lookalike& other) {
+        return other.number == one.number;
+      });
+      if (is_there) continue;
+      best.push_back(one);
+      best.push_back(one);
+      const Eigen::Matrix3d round = geometry::exp_so3({0, 0, std::numbers::pi});
+      best.back().T_known_keyframe.rotation *= round;
     }
     return best;
   }

@@ -63,6 +63,13 @@ RunPlaces::RunPlaces(const std::vector<MapKeyframe>& keyframes) {
   }
 }
 
+slam::ScanContext RunPlaces::context_beside(std::size_t k, double left_m) const {
+  const auto& points = keyframes_[k]->features.surface;
+  std::vector<float> y = points.y;
+  for (float& value : y) value -= static_cast<float>(left_m);
+  return {points.x, y, points.z, slam::ScanContextOptions{}};
+}
+
 slam::Submap RunPlaces::submap(std::size_t k, int keyframes_around) const {
   const auto around = static_cast<std::size_t>(keyframes_around);
   std::vector<slam::PlacedKeyframe> placed;

@@ -23,6 +23,8 @@ class RunPlaces {
   /// In the run's own map frame.
   const geometry::Pose3& T_map_sensor(std::size_t k) const { return T_map_sensor_[k]; }
   const slam::ScanContext& context(std::size_t k) const { return contexts_[k]; }
+  /// As if the sensor stood so far to the left (Kim, Choi and Kim, "Scan Context++", T-RO 2022).
+  slam::ScanContext context_beside(std::size_t k, double left_m) const;
   const lidar::voxel::SweepSample& features(std::size_t k) const { return keyframes_[k]->features; }
 
   /// The surfaces that keyframe k and those around it saw, in its frame.
