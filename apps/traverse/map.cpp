@@ -37,9 +37,10 @@ constexpr const char* kExamples = R"(Examples:
   traverse map MONDAY TUESDAY -o MAP             two runs of one place in the frame of the first
 
 RUN is the folder of a run, or a .simplemap. Several runs are merged if they show the same places:
-scans that look alike are registered, and a pose graph brings all keyframes together. Points that rays of other keyframes pass through,
-passing cars above all, are left out. grid.yaml opens in ROS' map servers, map.ply in CloudCompare
-and MeshLab. A run with GNSS gives a map in east, north and up; origin.json says where on earth.)";
+scans that look alike are registered, and a pose graph brings all keyframes together. Points that
+rays of other keyframes pass through, passing cars above all, are left out. grid.yaml opens in ROS'
+map servers, map.ply in CloudCompare and MeshLab. A run with GNSS gives a map in east, north and
+up; origin.json says where on earth.)";
 
 struct MapSettings {
   mapping::MapOptions map;

@@ -10,11 +10,11 @@
 #include <fmt/core.h>
 
 #include "traverse/geometry/se3.hpp"
-#include "traverse/geometry/so3.hpp"
 #include "traverse/pose_graph/pose_graph.hpp"
 #include "traverse/slam/place_index.hpp"
 
 #include "run_places.hpp"
+#include "run_search.hpp"
 
 namespace traverse::mapping {
 
@@ -28,11 +28,6 @@ geometry::Matrix6 covariance_of(double sigma_m, double sigma_deg) {
   covariance.bottomRightCorner<3, 3>() *= sigma_m * sigma_m;
   return covariance;
 }
-
-struct PlacedKeyframeId {
-  std::size_t run = 0;
-  std::size_t keyframe = 0;
-};
 
 struct Link {
   RunLink what;
@@ -57,7 +52,10 @@ class Merger {
       goes_on = false;
       for (std::size_t run = 0; run < runs_.size(); ++run) {
         if (T_map_run_[run]) continue;
-        T_map_run_[run] = placed(run);
+        T_map_run_[run] =
+            RunSearch(known_keyframes(), options_).place_of(runs_[run], [&](double share) {
+              tell(fmt::format("place of run {}", run + 1), share);
+            });
         if (!T_map_run_[run]) continue;
         link(run);
         goes_on = true;
@@ -110,157 +108,51 @@ class Merger {
     return keyframe;
   }
 
-  geometry::Pose3 T_map_sensor(const PlacedKeyframeId& at) const {
-    return *T_map_run_[at.run] * runs_[at.run].T_map_sensor(at.keyframe);
+  geometry::Pose3 T_map_sensor(std::size_t run, std::size_t keyframe) const {
+    return *T_map_run_[run] * runs_[run].T_map_sensor(keyframe);
   }
 
   /// The keyframes of the runs that are placed.
-  std::vector<PlacedKeyframeId> placed_keyframes() const {
-    std::vector<PlacedKeyframeId> all;
+  std::vector<KnownKeyframe> known_keyframes() const {
+    std::vector<KnownKeyframe> all;
     for (std::size_t run = 0; run < runs_.size(); ++run) {
-      for (std::size_t k = 0; T_map_run_[run] && k < runs_[run].size(); ++k)
-        all.push_back({run, k});
+      for (std::size_t k = 0; T_map_run_[run] && k < runs_[run].size(); ++k) {
+        all.push_back({run, k, &runs_[run], T_map_sensor(run, k)});
+      }
     }
     return all;
   }
 
-  bool alike(const geometry::Pose3& a, const geometry::Pose3& b) const {
-    const geometry::Pose3 difference = a.inverse() * b;
-    return difference.translation.norm() <= options_.agreement_m &&
-           geometry::angle_of(difference.rotation) <= options_.agreement_deg * kDegree;
-  }
-
-  /// Where a run lies, by what its keyframes look like.
-  std::optional<geometry::Pose3> placed(std::size_t run) const {
-    const std::vector<PlacedKeyframeId> known = placed_keyframes();
-    slam::PlaceIndex ring_keys(runs_.front().context(0).ring_key().size());
-    for (const auto& at : known) ring_keys.add(runs_[at.run].context(at.keyframe).ring_key());
-
-    std::vector<Hypothesis> hypotheses;
-    const auto samples =
-        std::min<std::size_t>(runs_[run].size(), static_cast<std::size_t>(options_.samples));
-    for (std::size_t s = 0; s < samples; ++s) {
-      const std::size_t keyframe = s * runs_[run].size() / samples;
-      for (const Lookalike& like : lookalikes(run, keyframe, known, ring_keys)) {
-        const PlacedKeyframeId& at = known[like.number];
-        const auto found = place(
-            runs_[run], keyframe, runs_[at.run].submap(at.keyframe, options_.keyframes_around),
-            like.T_known_keyframe, {options_.search_m, options_.search_deg * kDegree}, options_);
-        if (!found) continue;
-        const geometry::Pose3 T_map_keyframe = T_map_sensor(at) * found->T_other_keyframe;
-        hypotheses.push_back({keyframe, T_map_keyframe,
-                              T_map_keyframe * runs_[run].T_map_sensor(keyframe).inverse()});
-      }
-      tell(fmt::format("place of run {}", run + 1),
-           static_cast<double>(s + 1) / static_cast<double>(samples));
-    }
-    return largest_agreement(run, hypotheses);
-  }
-
-  /// A keyframe's place, and what it says of its run's.
-  struct Hypothesis {
-    std::size_t keyframe;
-    geometry::Pose3 T_map_keyframe;
-    geometry::Pose3 T_map_run;
-  };
-
-  struct Lookalike {
-    double distance = 1;     ///< of the contexts
-    std::size_t number = 0;  ///< of the known keyframe
-    geometry::Pose3 T_known_keyframe;
-  };
-  /// The known keyframes that look most like a keyframe of a run, also from other lanes. Each comes
-  /// turned round as well: from above a street looks much alike in both directions.
-  std::vector<Lookalike> lookalikes(std::size_t run, std::size_t keyframe,
-                                    const std::vector<PlacedKeyframeId>& known,
-                                    const slam::PlaceIndex& ring_keys) const {
-    constexpr std::size_t kRingKeys = 20;
-    std::vector<Lookalike> compared;
-    for (const double left_m : {0.0, 2.0, -2.0, 4.0, -4.0}) {
-      const slam::ScanContext context = runs_[run].context_beside(keyframe, left_m);
-      for (const auto& found : ring_keys.nearest(context.ring_key(), kRingKeys)) {
-        const PlacedKeyframeId& at = known[found.number];
-        const auto match = slam::ScanContext::compare(runs_[at.run].context(at.keyframe), context);
-        const Eigen::Matrix3d turn = geometry::exp_so3({0, 0, match.turn_rad});
-        compared.push_back(
-            {match.distance, found.number, {turn, turn * Eigen::Vector3d(0, -left_m, 0)}});
-      }
-    }
-    std::stable_sort(compared.begin(), compared.end(),
-                     [](const auto& a, const auto& b) { return a.distance < b.distance; });
-    std::vector<Lookalike> best;
-    for (const Lookalike& one : compared) {
-      if (best.size() == 2 * static_cast<std::size_t>(options_.candidates)) break;
-      const bool is_there = std::any_of(best.begin(), best.end(), [&](const Lookalike& other) {
-        return other.number == one.number;
-      });
-      if (is_there) continue;
-      best.push_back(one);
-      best.push_back(one);
-      const Eigen::Matrix3d round = geometry::exp_so3({0, 0, std::numbers::pi});
-      best.back().T_known_keyframe.rotation *= round;
-    }
-    return best;
-  }
-
-  /// By the keyframes, each counted once, that the hypotheses alike to one come from. What another
-  /// place would explain half as well is not sure.
-  std::optional<geometry::Pose3> largest_agreement(
-      std::size_t run, const std::vector<Hypothesis>& hypotheses) const {
-    const auto agreeing = [&](const Hypothesis& one, bool with_it) {
-      std::vector<std::size_t> keyframes;
-      for (const Hypothesis& other : hypotheses) {
-        // Compared where the other keyframe stands: far from the run's origin a small turn is far.
-        const geometry::Pose3 expected = one.T_map_run * runs_[run].T_map_sensor(other.keyframe);
-        if (alike(expected, other.T_map_keyframe) == with_it) keyframes.push_back(other.keyframe);
-      }
-      keyframes.erase(std::unique(keyframes.begin(), keyframes.end()), keyframes.end());
-      return keyframes.size();
-    };
-    const Hypothesis* best = nullptr;
-    std::size_t most = 0;
-    for (const Hypothesis& one : hypotheses) {
-      const std::size_t count = agreeing(one, true);
-      if (count > most) {
-        most = count;
-        best = &one;
-      }
-    }
-    if (best == nullptr || most < static_cast<std::size_t>(options_.least_agreeing)) return {};
-    for (const Hypothesis& one : hypotheses) {
-      const geometry::Pose3 expected = best->T_map_run * runs_[run].T_map_sensor(one.keyframe);
-      if (!alike(expected, one.T_map_keyframe) && 2 * agreeing(one, true) > most) return {};
-    }
-    return best->T_map_run;
-  }
-
   /// Registers every keyframe of a run that was just placed near keyframes that stood before.
   void link(std::size_t run) {
-    std::vector<PlacedKeyframeId> known = placed_keyframes();
-    std::erase_if(known, [&](const auto& at) { return at.run == run; });
+    std::vector<KnownKeyframe> known = known_keyframes();
+    std::erase_if(known, [&](const KnownKeyframe& at) { return at.run == run; });
     slam::PlaceIndex positions(3);
-    for (const auto& at : known) {
-      const Eigen::Vector3f p = T_map_sensor(at).translation.cast<float>();
+    for (const KnownKeyframe& at : known) {
+      const Eigen::Vector3f p = at.T_map_sensor.translation.cast<float>();
       positions.add({p.data(), 3});
     }
     for (std::size_t k = 0; k < runs_[run].size(); ++k) {
-      const geometry::Pose3 predicted = T_map_sensor({run, k});
-      const Eigen::Vector3f p = predicted.translation.cast<float>();
-      const auto nearest = positions.nearest({p.data(), 3}, 1);
       tell(fmt::format("links of run {}", run + 1),
            static_cast<double>(k + 1) / static_cast<double>(runs_[run].size()));
+      const Eigen::Vector3f p = T_map_sensor(run, k).translation.cast<float>();
+      const auto nearest = positions.nearest({p.data(), 3}, 1);
       if (nearest.empty() || nearest.front().distance > options_.reach_m) continue;
-      const PlacedKeyframeId& at = known[nearest.front().number];
-      const geometry::Pose3 guess = T_map_sensor(at).inverse() * predicted;
-      const auto found =
-          place(runs_[run], k, runs_[at.run].submap(at.keyframe, options_.keyframes_around), guess,
-                {options_.correction_m / 2, kDegree}, options_);
-      if (!found) continue;
-      const double moved = (guess.inverse() * found->T_other_keyframe).translation.norm();
-      if (moved > options_.correction_m) continue;
-      links_.push_back({{run, k, at.run, at.keyframe, found->overlap, found->residual_rms_m, 0},
-                        found->T_other_keyframe});
+      link(run, k, known[nearest.front().number]);
     }
+  }
+
+  void link(std::size_t run, std::size_t keyframe, const KnownKeyframe& at) {
+    const geometry::Pose3 guess = at.T_map_sensor.inverse() * T_map_sensor(run, keyframe);
+    const auto found =
+        place(runs_[run], keyframe, at.places->submap(at.keyframe, options_.keyframes_around),
+              guess, {options_.correction_m / 2, kDegree}, options_);
+    if (!found) return;
+    const double moved = (guess.inverse() * found->T_other_keyframe).translation.norm();
+    if (moved > options_.correction_m) return;
+    links_.push_back(
+        {{run, keyframe, at.run, at.keyframe, found->overlap, found->residual_rms_m, 0},
+         found->T_other_keyframe});
   }
 
   /// Nodes of a run, the steps between them, and what the run knew of its own revisits.
@@ -273,7 +165,7 @@ class Merger {
     std::vector<double> way{0};
     std::size_t indexed = 0;
     for (std::size_t k = 0; k < places.size(); ++k) {
-      graph.add_node(id(run, k), T_map_sensor({run, k}));
+      graph.add_node(id(run, k), T_map_sensor(run, k));
       if (k == 0) continue;
       const geometry::Pose3 step = places.T_map_sensor(k - 1).inverse() * places.T_map_sensor(k);
       way.push_back(way.back() + step.translation.norm());
