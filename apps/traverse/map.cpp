@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "traverse/config/document.hpp"
+#include "traverse/config/settings.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/mapping/map_folder.hpp"
 #include "traverse/mapping/map_origin.hpp"
@@ -66,6 +67,21 @@ std::optional<geodesy::Geodetic> origin_of(const fs::path& run) {
   return mapping::read_map_origin(file);
 }
 
+void bind(config::Binder& b, MapSettings& settings) {
+  bind(b, settings.map);
+  b.group("merge", "how runs are brought together",
+          [&](config::Binder& g) { bind(g, settings.merge); });
+}
+
+void print_settings() {
+  MapSettings settings;
+  for (const config::Setting& setting : config::list([&](auto& b) { bind(b, settings); })) {
+    const std::string allowed = setting.allowed.empty() ? "" : " (" + setting.allowed + ")";
+    fmt::print("{:<26}{:<8}{}{}\n", setting.path, config::to_text(setting.value), setting.meaning,
+               allowed);
+  }
+}
+
 MapSettings settings_from(const MapArguments& arguments) {
   MapSettings settings;
   mapping::MapOptions& options = settings.map;
@@ -74,11 +90,7 @@ MapSettings settings_from(const MapArguments& arguments) {
   options.with_grid = !arguments.no_grid;
   config::Document document;
   for (const std::string& assignment : arguments.assignments) document.set(assignment);
-  config::read(document, [&](config::Binder& b) {
-    bind(b, options);
-    b.group("merge", "how runs are brought together",
-            [&](config::Binder& g) { bind(g, settings.merge); });
-  });
+  config::read(document, [&](config::Binder& b) { bind(b, settings); });
   return settings;
 }
 
@@ -170,7 +182,15 @@ void add_map(CLI::App& app) {
       ->required()
       ->type_name("DIR");
   map->add_option("--set", arguments->assignments, "a setting, as in --set grid.cell_m=0.05")
-      ->type_name("KEY=VALUE");
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  map->add_flag_callback(
+      "--settings",
+      [] {
+        print_settings();
+        throw CLI::Success();
+      },
+      "list what --set takes, with its value and its meaning");
   map->add_flag("--attributes", arguments->attributes,
                 "time and keyframe of each point beside its intensity");
   map->add_flag("--keep-moving", arguments->keep_moving, "leave moving objects in");
