@@ -19,22 +19,20 @@ using ::testing::HasSubstr;
 using testing::ProgramResult;
 using testing::run_program;
 
-/// Runs on a simulated corridor, made once.
+/// Two runs of 35 m of a simulated street that overlap, made once.
 class MapCommand : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new testing::TemporaryFolder;
-    const std::string rawlog = path("corridor.rawlog");
-    ASSERT_EQ(
-        run_program("simulate corridor_loop --duration 6 --set gnss.mounted=true -o " + rawlog)
-            .status,
-        0);
-    for (const char* part : {"--last 39", "--first 20"}) {
-      const std::string run = path(part == std::string("--last 39") ? "run1" : "run2");
-      const ProgramResult made =
-          run_program("run " + rawlog + " --no-report " + part + " -o " + run);
-      ASSERT_EQ(made.status, 0) << made.messages;
-    }
+    const std::string rawlog = path("town.rawlog");
+    const ProgramResult made =
+        run_program("simulate town_loop --sensor vlp16 --first 100 --duration 4 -o " + rawlog);
+    ASSERT_EQ(made.status, 0) << made.messages;
+    const std::string run = "run " + rawlog + " --no-report ";
+    const ProgramResult first = run_program(run + "--last 29 -o " + path("run1"));
+    ASSERT_EQ(first.status, 0) << first.messages;
+    const ProgramResult second = run_program(run + "--first 8 -o " + path("run2"));
+    ASSERT_EQ(second.status, 0) << second.messages;
   }
   static void TearDownTestSuite() { delete folder_; }
 
@@ -65,8 +63,9 @@ TEST_F(MapCommand, MakesPointsAndGridOfARun) {
 }
 
 TEST_F(MapCommand, MergesRunsThatOverlap) {
-  const ProgramResult result = run_program("map " + path("run1") + " " + path("run2") +
-                                           " --set grid.cell_m=0.2 -o " + path("merged"));
+  const ProgramResult result =
+      run_program("map " + path("run1") + " " + path("run2") +
+                  " --set grid.cell_m=0.2 --set merge.samples=8 -o " + path("merged"));
   ASSERT_EQ(result.status, 0) << result.messages;
   EXPECT_THAT(result.output, HasSubstr("2 runs brought together"));
 }
@@ -78,9 +77,9 @@ TEST_F(MapCommand, SaysWhatIsWrong) {
       run_program("map " + path("run1") + " --set voxel=1 -o " + path("x"));
   EXPECT_EQ(unknown.status, 1);
   EXPECT_THAT(unknown.messages, HasSubstr("did you mean 'voxel_m'?"));
-  const ProgramResult no_map = run_program("map " + path("corridor.rawlog") + " -o " + path("x"));
+  const ProgramResult no_map = run_program("map " + path("town.rawlog") + " -o " + path("x"));
   EXPECT_EQ(no_map.status, 1);
-  EXPECT_THAT(no_map.messages, HasSubstr("corridor.rawlog: expected a simple map"));
+  EXPECT_THAT(no_map.messages, HasSubstr("town.rawlog: expected a simple map"));
 }
 
 TEST_F(MapCommand, ListsItsSettings) {
