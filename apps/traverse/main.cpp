@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(kExamples);
   traverse::app::add_run(app);
+  traverse::app::add_localize(app);
   traverse::app::add_batch(app);
   traverse::app::add_evaluate(app);
   traverse::app::add_report(app);

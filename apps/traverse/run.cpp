@@ -11,6 +11,8 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "traverse/config/settings.hpp"
 #include "traverse/files/atomic_file.hpp"
@@ -61,6 +63,8 @@ struct RunArguments {
   std::string reference_frame;
   std::string gnss_outages;
   std::optional<bool> slam;
+  std::string map;  ///< run folder to localise in; empty: none
+  std::vector<double> start;
   std::size_t first = 0;
   std::optional<std::size_t> last;
   int threads = 1;
@@ -111,6 +115,13 @@ void run_recording(RunArguments& arguments, const std::vector<std::string>& comm
   }
   if (arguments.slam) {
     arguments.preset.assignments.push_back(*arguments.slam ? "slam.use=true" : "slam.use=false");
+  }
+  if (!arguments.map.empty()) {
+    const pipeline::RunFolder map{std::filesystem::absolute(arguments.map)};
+    arguments.preset.assignments.push_back("slam.localize.map=" +
+                                           config::to_text(map.keyframes().string()));
+    arguments.preset.assignments.push_back(
+        fmt::format("slam.localize.start=[{}]", fmt::join(arguments.start, ", ")));
   }
   const InstalledFiles installed = find_installed_files();
   const pipeline::Preset preset = checked_preset(arguments.preset, installed.share);
@@ -165,13 +176,17 @@ constexpr const char* kExamples = R"(Examples:
 Ctrl-C ends the run in order: what is done so far is written and evaluated.
 `traverse pipelines` lists the presets, `traverse pipelines traverse` their settings.)";
 
-}  // namespace
+constexpr const char* kLocalizeExamples = R"(Examples:
+  traverse run drive.rawlog -o MAP                              a map, with its keyframes
+  traverse localize other.rawlog --map MAP -o RUN               searched for in all of the map
+  traverse localize other.rawlog --map MAP -o RUN --start 12,0,1.5,90
+The trajectory is in the map's frame. Where the place was found or lost stands in the report (what was
+decided) and in frames.csv, columns located and fits_map.)";
 
-void add_run(CLI::App& app) {
-  auto arguments = std::make_shared<RunArguments>();
-  CLI::App* run = app.add_subcommand(
-      "run", "estimate the trajectory of a recording; write map, pictures and report");
-  run->footer(kExamples);
+/// The options that every command has which estimates a recording.
+CLI::App* add_estimating(CLI::App& app, const std::string& name, const std::string& description,
+                         const std::shared_ptr<RunArguments>& arguments) {
+  CLI::App* run = app.add_subcommand(name, description);
   add_recording_options(*run, arguments->recording);
   run->add_option("-o,--output", arguments->folder, "run folder to write")
       ->required()
@@ -191,6 +206,26 @@ void add_run(CLI::App& app) {
   run->add_option("--threads", arguments->threads, "threads; the result does not depend on it")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
+  run->add_flag("!--no-report", arguments->report, "no pictures and no report.html");
+  add_budget_option(*run, arguments->budget);
+  run->add_flag("!--no-hash", arguments->hash, "do not compute the recording's SHA-256");
+  run->callback([arguments, run] {
+    if (arguments->last && *arguments->last < arguments->first) {
+      throw CLI::ValidationError("--last", "is before --first");
+    }
+    run_recording(*arguments, command_line());
+  });
+  return run;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app) {
+  auto arguments = std::make_shared<RunArguments>();
+  CLI::App* run = add_estimating(
+      app, "run", "estimate the trajectory of a recording; write map, pictures and report",
+      arguments);
+  run->footer(kExamples);
   run->add_option("--reference", arguments->reference, "reference trajectory (TUM, KITTI, EuRoC)")
       ->type_name("FILE")
       ->check(CLI::ExistingFile);
@@ -205,15 +240,24 @@ void add_run(CLI::App& app) {
   run->add_option("--drop-gnss", arguments->gnss_outages,
                   "keep fixes back for spells of so many seconds, and tell the error after each")
       ->type_name("10,30,60");
-  run->add_flag("!--no-report", arguments->report, "no pictures and no report.html");
-  add_budget_option(*run, arguments->budget);
-  run->add_flag("!--no-hash", arguments->hash, "do not compute the recording's SHA-256");
-  run->callback([arguments, run] {
-    if (arguments->last && *arguments->last < arguments->first) {
-      throw CLI::ValidationError("--last", "is before --first");
-    }
-    run_recording(*arguments, command_line());
-  });
+}
+
+void add_localize(CLI::App& app) {
+  auto arguments = std::make_shared<RunArguments>();
+  CLI::App* localize = add_estimating(
+      app, "localize", "follow a recording in the map of an earlier run; write a run folder",
+      arguments);
+  localize->footer(kLocalizeExamples);
+  localize->add_option("--map", arguments->map, "run folder with keyframes.simplemap")
+      ->required()
+      ->type_name("RUN")
+      ->check(CLI::ExistingDirectory);
+  localize
+      ->add_option("--start", arguments->start,
+                   "where the vehicle is at the first scan; without it: searched for")
+      ->type_name("X,Y,Z,YAW_DEG")
+      ->delimiter(',')
+      ->expected(4);
 }
 
 }  // namespace traverse::app

@@ -147,6 +147,7 @@ std::unique_ptr<Source> open_kitti_raw(const fs::path& folder, const OpenOptions
       choose_reference(info, statements, std::nullopt, stamps_of(recording.scans));
   if (!recording.reference) {
     recording.reference = oxts_reference(oxts, T_lidar_imu, folder / "oxts", info.facts);
+    if (recording.reference) info.reference_receiver = kGnss;
   }
   recording.others = std::move(oxts.records);
   recording.read = [](const ScanFile& scan) { return read_kitti_bin(scan.file); };

@@ -71,6 +71,10 @@ std::unique_ptr<Estimator> make_lidar(const config::Document& document,
     return std::make_unique<Odometry>(options.odometry, profile, motion_compensated);
   };
   auto odometry = std::make_unique<LidarEstimator>(make, recording);
+  if (!options.slam.localization.map.empty()) {
+    return std::make_unique<LocalizingEstimator>(std::move(odometry), options.slam.localization,
+                                                 options.slam.slam);
+  }
   if (!options.slam.use) return odometry;
   return std::make_unique<SlamEstimator>(std::move(odometry), recording, options.slam);
 }

@@ -25,6 +25,7 @@
 #include "traverse/optimization/jacobian_audit.hpp"
 #include "traverse/pipeline/factor_kinds.hpp"
 #include "traverse/pipeline/frame_table.hpp"
+#include "traverse/slam/keyframe_file.hpp"
 #include "traverse/slam/slam.hpp"
 
 #include "slam_results.hpp"
@@ -325,6 +326,8 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
     write_results(source, results, folder);
     if (const auto slam_map = pipeline.estimator->slam_map()) {
       slam::write_loops(folder.loops(), slam_map->slam().loops());
+      slam::write_keyframes(folder.keyframes(), slam_map->slam().keyframes(),
+                            [&](std::size_t k) { return slam_map->optimised(k); });
       if (slam_map->origin()) mapping::write_map_origin(folder.origin(), *slam_map->origin());
     }
     observer.stage("evaluation");

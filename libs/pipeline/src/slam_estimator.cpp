@@ -29,6 +29,8 @@ void bind(config::Binder& b, SlamEstimatorOptions& o) {
              "of a fix that does not tell its covariance");
     g.number("least_sigma_m", o.gnss.least_sigma_m, Range::positive(), "believed of any fix");
   });
+  b.group("localize", "follow the recording in a given map instead",
+          [&](config::Binder& g) { bind(g, o.localization); });
   bind(b, o.slam);
 }
 
@@ -42,6 +44,10 @@ SlamEstimator::SlamEstimator(std::unique_ptr<LidarEstimator> odometry,
   columns_.insert(columns_.end(), {"keyframe", "loops", "slam_ms"});
   const auto* receiver = recording.rig.first(sensors::SensorKind::kGnss);
   if (!gnss_.use || receiver == nullptr) return;
+  if (receiver->label == recording.reference_receiver) {
+    gnss_note_ = "not used: the reference is made of them";
+    return;
+  }
   receiver_ = receiver->label;
   antenna_lidar_ =
       odometry_->sensor().T_body_sensor.inverse() * receiver->T_body_sensor.translation;
@@ -50,6 +56,7 @@ SlamEstimator::SlamEstimator(std::unique_ptr<LidarEstimator> odometry,
 SlamEstimator::SlamEstimator(const SlamEstimator& other)
     : gnss_(other.gnss_),
       receiver_(other.receiver_),
+      gnss_note_(other.gnss_note_),
       antenna_lidar_(other.antenna_lidar_),
       plane_(other.plane_),
       fixes_(other.fixes_),
@@ -137,6 +144,7 @@ std::vector<Decision> SlamEstimator::decisions() const {
   decisions.push_back(
       {"loops", fmt::format("{} of {} candidates accepted, {} keyframes", slam_.accepted_loops(),
                             slam_.loops().size(), slam_.keyframes().size())});
+  if (!gnss_note_.empty()) decisions.push_back({"fixes", gnss_note_});
   if (slam_.graph().is_georeferenced()) {
     const geodesy::Geodetic& origin = plane_->origin();
     decisions.push_back(

@@ -11,6 +11,7 @@
 #include "traverse/slam/slam.hpp"
 
 #include "lidar_estimator.hpp"
+#include "localizing_estimator.hpp"
 
 namespace traverse::pipeline {
 
@@ -24,6 +25,7 @@ struct SlamGnssOptions {
 struct SlamEstimatorOptions {
   bool use = false;  ///< off: odometry alone
   SlamGnssOptions gnss;
+  LocalizationOptions localization;  ///< with a map: no map is built, it is followed
   slam::SlamOptions slam;
 };
 void bind(config::Binder& binder, SlamEstimatorOptions& options);
@@ -64,7 +66,8 @@ class SlamEstimator final : public Estimator {
   void place(const sensors::GnssFix& fix, const geometry::Pose3& T_odom_lidar);
 
   SlamGnssOptions gnss_;
-  std::string receiver_;  ///< label; empty: no fixes
+  std::string receiver_;   ///< label; empty: no fixes
+  std::string gnss_note_;  ///< why fixes are not used although there are some
   Eigen::Vector3d antenna_lidar_ = Eigen::Vector3d::Zero();
   std::optional<geodesy::LocalTangentPlane> plane_;  ///< at the first fix
   std::deque<sensors::GnssFix> fixes_;               ///< that wait for the frame after them

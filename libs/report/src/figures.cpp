@@ -19,6 +19,7 @@
 
 #include "error_figures.hpp"
 #include "figure_maker.hpp"
+#include "loop_figures.hpp"
 #include "nearest_pose.hpp"
 #include "number_text.hpp"
 #include "series.hpp"
@@ -252,6 +253,7 @@ std::vector<Figure> draw_figures(const RunData& run, const WorstSegments& worst,
                                  const std::function<void(const std::string&)>& picture_drawn) {
   FigureMaker maker(run, width, picture_drawn);
   add_trajectories(run, maker);
+  add_loop_figures(run, maker);
   if (run.evaluation.comparison) add_error_figures(run, maker);
   add_worst_segment_figures(run, worst, maker);
   if (run.map.size() > 0) add_maps(run, maker);

@@ -11,8 +11,8 @@
 namespace traverse::report {
 
 /// Where a picture may stand on the page.
-inline constexpr std::array<const char*, 8> kFigureSections{
-    "trajectory", "error", "association", "worst", "kitti", "map", "health", "timing"};
+inline constexpr std::array<const char*, 9> kFigureSections{
+    "trajectory", "loops", "error", "association", "worst", "kitti", "map", "health", "timing"};
 
 /// One picture of the report, drawn for light and for dark pages.
 struct Figure {

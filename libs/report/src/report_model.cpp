@@ -25,6 +25,7 @@ ReportModel make_model(const RunData& run, const std::vector<RunFigure>& figures
   add_timing(run, model);
   add_factors(run, model);
   add_navigation(run, model);
+  add_loops(run, model);
   add_provenance(run, model);
   add_charts(run, model);
   report.packed_points = add_scene(run, model);

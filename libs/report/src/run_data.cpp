@@ -57,6 +57,11 @@ RunData read_run(const std::filesystem::path& folder) {
   if (std::filesystem::exists(files.reference())) {
     run.reference = dataset::read_trajectory(files.reference(), dataset::TrajectoryFormat::kTum);
   }
+  if (std::filesystem::exists(files.loops())) {
+    run.odometry = dataset::read_trajectory(files.odometry(), dataset::TrajectoryFormat::kTum);
+    run.odometry_evaluation = read_evaluation(files.odometry_evaluation());
+    run.loops = slam::read_loops(files.loops());
+  }
   if (std::filesystem::exists(files.map_points())) {
     run.map = dataset::read_point_cloud(files.map_points());
   }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -12,6 +13,7 @@
 #include "traverse/lidar/factor_bench.hpp"
 #include "traverse/optimization/jacobian_audit.hpp"
 #include "traverse/pipeline/frame_table.hpp"
+#include "traverse/slam/loop.hpp"
 
 namespace traverse::report {
 
@@ -22,6 +24,10 @@ struct RunData {
   pipeline::FrameTable frames;
   evaluation::Evaluation evaluation;
   geometry::Trajectory estimate;
+  /// The odometry that loops were closed over, for a run that closes them, and the candidates.
+  std::optional<geometry::Trajectory> odometry;
+  std::optional<evaluation::Evaluation> odometry_evaluation;
+  std::optional<std::vector<slam::Loop>> loops;
   std::optional<geometry::Trajectory> reference;
   dataset::PointCloud map;  ///< empty for a run without lidar
   std::optional<dataset::PointCloud> sample_scan;

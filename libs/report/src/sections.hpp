@@ -19,6 +19,8 @@ void add_health(const RunData& run, Model& model);
 void add_timing(const RunData& run, Model& model);
 /// Nothing where the run folder has no factors.
 void add_factors(const RunData& run, Model& model);
+/// Nothing where the run closed no loops over its odometry.
+void add_loops(const RunData& run, Model& model);
 /// Nothing where the run was not a navigation of IMU, GNSS and wheels.
 void add_navigation(const RunData& run, Model& model);
 void add_provenance(const RunData& run, Model& model);

@@ -54,6 +54,9 @@ struct RecordingInfo {
   std::vector<Fact> facts;
   /// Number of measurements of each lidar scan stream, when it is known without reading; 0 if not.
   std::size_t expected_scans = 0;
+  /// Label of the receiver whose fixes the reference is made of: an estimate that takes them too
+  /// cannot be judged by it. Empty: none.
+  std::string reference_receiver = {};
 };
 
 /// The reference trajectory that belongs to a recording.

@@ -1,0 +1,99 @@
+#include "traverse/slam/localizer.hpp"
+
+#include <gtest/gtest.h>
+
+#include "slam/made_drive.hpp"
+
+namespace traverse::slam {
+namespace {
+
+using testing::MadeDrive;
+using testing::MadeFrame;
+
+/// A street that was mapped, and scans of another pass through it.
+class InAMap : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    MadeDrive mapped(geometry::Twist::Zero());
+    mapped.pass(4, simulation::Drive{});
+    KeyframeMaker maker({}, mapped.profile());
+    for (const MadeFrame& made : mapped.frames()) {
+      MapKeyframe keyframe;
+      keyframe.stamp = made.frame.stamp;
+      keyframe.T_map_lidar = made.T_truth;
+      keyframe.content =
+          maker.make(made.frame, made.scan, testing::points_of(made, mapped.profile()), true);
+      map_.push_back(std::move(keyframe));
+    }
+    simulation::Drive beside;
+    beside.amplitude_m = 1.2;
+    geometry::Twist drift = geometry::Twist::Zero();
+    drift[3] = 0.01;
+    drive_ = new MadeDrive(drift);
+    drive_->pass(3, beside);
+  }
+  static void TearDownTestSuite() { delete drive_; }
+
+  static Keyframe scan(std::size_t k) {
+    const MadeFrame& made = drive_->frames()[k];
+    KeyframeMaker maker({}, drive_->profile());
+    return maker.make(made.frame, made.scan, testing::points_of(made, drive_->profile()), true);
+  }
+  static double error_m(const Localizer::Fix& fix, std::size_t k) {
+    const MadeFrame& made = drive_->frames()[k];
+    return ((fix.T_map_odom * made.frame.T_map_lidar).translation - made.T_truth.translation)
+        .norm();
+  }
+  static Localizer localizer() { return {map_, {}, {}}; }
+  static const MadeDrive& drive() { return *drive_; }
+
+ private:
+  static inline std::vector<MapKeyframe> map_;
+  static inline MadeDrive* drive_ = nullptr;
+};
+
+TEST_F(InAMap, ThePlaceIsFoundAndHeldWhileOdometryDrifts) {
+  Localizer localizer = InAMap::localizer();
+  bool located = false;
+  for (std::size_t k = 3; k < 13; ++k) {
+    const auto fix = localizer.locate(scan(k));
+    if (k >= 6) {
+      EXPECT_TRUE(fix.located) << "scan " << k;
+    }
+    located = located || fix.located;
+    if (fix.located) {
+      EXPECT_LT(error_m(fix, k), 0.05) << "scan " << k;
+    }
+  }
+  EXPECT_TRUE(located);
+}
+
+TEST_F(InAMap, AGivenStartIsTakenAtOnce) {
+  Localizer localizer = InAMap::localizer();
+  geometry::Pose3 start = drive().frames()[5].T_truth;
+  start.translation += Eigen::Vector3d(1.5, -1, 0.1);
+  localizer.start_at(start);
+  const auto fix = localizer.locate(scan(5));
+  ASSERT_TRUE(fix.located);
+  EXPECT_LT(error_m(fix, 5), 0.05);
+}
+
+TEST_F(InAMap, LosingTheMapIsNoticed) {
+  Localizer localizer = InAMap::localizer();
+  localizer.start_at(drive().frames()[5].T_truth);
+  ASSERT_TRUE(localizer.locate(scan(5)).located);
+  Keyframe elsewhere = scan(5);  // an empty place: nothing of the map is there
+  elsewhere.features.planar = {};
+  elsewhere.features.edges = {};
+  int scans = 0;
+  while (localizer.locate(elsewhere).located) {
+    ASSERT_LT(++scans, 20);
+  }
+  EXPECT_EQ(scans, LocalizerOptions{}.lost_after - 1);
+  // And it is found again when it is there again.
+  localizer.locate(scan(6));
+  EXPECT_TRUE(localizer.locate(scan(7)).located || localizer.locate(scan(8)).located);
+}
+
+}  // namespace
+}  // namespace traverse::slam

@@ -1,0 +1,89 @@
+#include "traverse/slam/loop_registration.hpp"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "slam/made_drive.hpp"
+
+namespace traverse::slam {
+namespace {
+
+using testing::MadeDrive;
+
+/// Keyframes of a pass through the street, the last of another pass beside it.
+class LoopInStreet : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    MadeDrive drive(geometry::Twist::Zero());
+    drive.pass(3, simulation::Drive{});
+    simulation::Drive beside;
+    beside.amplitude_m = 1;
+    drive.pass(1.6, beside);
+    KeyframeMaker maker({}, drive.profile());
+    for (const auto& made : drive.frames()) {
+      maker.observe(made.frame);
+      keyframes_.push_back(std::make_shared<const Keyframe>(
+          maker.make(made.frame, made.scan, testing::points_of(made, drive.profile()), true)));
+      truth_.push_back(made.T_truth);
+    }
+  }
+  static Submap submap() {
+    std::vector<PlacedKeyframe> placed;
+    for (std::size_t i = 0; i < 15; ++i) {
+      placed.push_back({keyframes_[i], truth_[7].inverse() * truth_[i]});
+    }
+    return make_submap(7, placed, {});
+  }
+  static geometry::Pose3 true_pose() { return truth_[7].inverse() * truth_.back(); }
+  static const Keyframe& last() { return *keyframes_.back(); }
+
+ private:
+  static inline std::vector<std::shared_ptr<const Keyframe>> keyframes_;
+  static inline std::vector<geometry::Pose3> truth_;
+};
+
+TEST_F(LoopInStreet, FindsThePoseFromAnyStartAroundIt) {
+  geometry::Pose3 guess = true_pose();
+  guess.translation += Eigen::Vector3d(2.2, -1.4, 0.1);
+  guess.rotation = guess.rotation * geometry::exp_so3({0, 0, 0.15});
+  const LoopRegistrationOptions options;
+  const auto starts = starts_around(guess, {3, 0.2}, options);
+  const auto found = register_in(submap(), last().features, starts, options);
+  EXPECT_TRUE(found.health.registered);
+  const geometry::Twist off = geometry::log_se3(true_pose().inverse() * found.T_centre_lidar);
+  EXPECT_LT(off.tail<3>().norm(), 0.03);
+  EXPECT_LT(off.head<3>().norm(), 0.003);
+  EXPECT_GT(found.overlap, 0.6);
+}
+
+TEST_F(LoopInStreet, AWrongPlaceOverlapsLess) {
+  geometry::Pose3 elsewhere = true_pose();
+  elsewhere.translation.x() += 11;
+  const LoopRegistrationOptions options;
+  const auto right = register_in(submap(), last().features, std::vector{true_pose()}, options);
+  const auto wrong = register_in(submap(), last().features, std::vector{elsewhere}, options);
+  EXPECT_LT(wrong.overlap, 0.8 * right.overlap);
+}
+
+TEST(LoopStarts, CoverTheRegionFromTheInsideOut) {
+  const LoopRegistrationOptions options;
+  geometry::Pose3 guess;
+  guess.translation = {5, 6, 7};
+  const auto starts = starts_around(guess, {2, 0.1}, options);
+  EXPECT_EQ(starts.front().translation, guess.translation);
+  double farthest = 0;
+  for (const auto& start : starts) {
+    const double distance = (start.translation - guess.translation).norm();
+    EXPECT_GE(distance, farthest - 1e-9);
+    farthest = std::max(farthest, distance);
+    EXPECT_NEAR(start.translation.z(), 7, 1e-12);
+  }
+  EXPECT_NEAR(farthest, 2, 0.5);
+  EXPECT_EQ(starts_around(guess, {0, 0}, options).size(), 1U);
+  EXPECT_LE(starts_around(guess, {500, std::numbers::pi}, options).size(),
+            static_cast<std::size_t>(2 * options.most_starts));
+}
+
+}  // namespace
+}  // namespace traverse::slam
