@@ -1,16 +1,22 @@
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "traverse/config/document.hpp"
+#include "traverse/config/settings.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/mapping/map_folder.hpp"
 #include "traverse/mapping/map_origin.hpp"
+#include "traverse/mapping/merge_runs.hpp"
 #include "traverse/pipeline/run_folder.hpp"
 
 #include "commands.hpp"
@@ -29,13 +35,21 @@ constexpr const char* kExamples = R"(Examples:
   traverse map RUN -o MAP --keep-moving --no-grid
                                                  all points, no occupancy grid
   traverse map other.simplemap -o MAP            from a simple map of another MRPT program
+  traverse map MONDAY TUESDAY -o MAP             two runs of one place in the frame of the first
 
-RUN is the folder of a run, or a .simplemap. Points that rays of other keyframes pass through,
-passing cars above all, are left out. grid.yaml opens in ROS' map servers, map.ply in CloudCompare
-and MeshLab. A run with GNSS gives a map in east, north and up; origin.json says where on earth.)";
+RUN is the folder of a run, or a .simplemap. Several runs are merged if they show the same places:
+scans that look alike are registered, and a pose graph brings all keyframes together. Points that
+rays of other keyframes pass through, passing cars above all, are left out. grid.yaml opens in ROS'
+map servers, map.ply in CloudCompare and MeshLab. A run with GNSS gives a map in east, north and
+up; origin.json says where on earth.)";
+
+struct MapSettings {
+  mapping::MapOptions map;
+  mapping::MergeOptions merge;
+};
 
 struct MapArguments {
-  std::string run;
+  std::vector<std::string> runs;
   std::string destination;
   std::vector<std::string> assignments;
   bool attributes = false;
@@ -53,34 +67,97 @@ std::optional<geodesy::Geodetic> origin_of(const fs::path& run) {
   return mapping::read_map_origin(file);
 }
 
-mapping::MapOptions options_from(const MapArguments& arguments) {
-  mapping::MapOptions options;
+void bind(config::Binder& b, MapSettings& settings) {
+  bind(b, settings.map);
+  b.group("merge", "how runs are brought together",
+          [&](config::Binder& g) { bind(g, settings.merge); });
+}
+
+void print_settings() {
+  MapSettings settings;
+  for (const config::Setting& setting : config::list([&](auto& b) { bind(b, settings); })) {
+    const std::string allowed = setting.allowed.empty() ? "" : " (" + setting.allowed + ")";
+    fmt::print("{:<26}{:<8}{}{}\n", setting.path, config::to_text(setting.value), setting.meaning,
+               allowed);
+  }
+}
+
+MapSettings settings_from(const MapArguments& arguments) {
+  MapSettings settings;
+  mapping::MapOptions& options = settings.map;
   options.attributes = arguments.attributes;
   options.remove_moving = !arguments.keep_moving;
   options.with_grid = !arguments.no_grid;
   config::Document document;
   for (const std::string& assignment : arguments.assignments) document.set(assignment);
-  config::read(document, [&](config::Binder& b) { bind(b, options); });
-  return options;
+  config::read(document, [&](config::Binder& b) { bind(b, settings); });
+  return settings;
+}
+
+/// A bar for each stage of the work.
+class StageBars {
+ public:
+  void update(const std::string& stage, double share) {
+    if (stage != stage_) {
+      finish();
+      bar_.emplace(stage, 0, "steps");
+      stage_ = stage;
+      steps_ = 0;
+    }
+    bar_->update(++steps_, share);
+  }
+  void finish() {
+    if (bar_) bar_->finish();
+    bar_.reset();
+  }
+
+ private:
+  std::optional<ProgressBar> bar_;
+  std::string stage_;
+  std::size_t steps_ = 0;
+};
+
+/// The keyframes of all runs, in the map frame of the first one.
+std::vector<mapping::MapKeyframe> keyframes_of(const std::vector<std::string>& runs,
+                                               const mapping::MergeOptions& options,
+                                               StageBars& bars) {
+  std::vector<std::vector<mapping::MapKeyframe>> by_run;
+  for (const std::string& run : runs)
+    by_run.push_back(mapping::read_simple_map(simple_map_of(run)));
+  if (by_run.size() == 1) return std::move(by_run.front());
+  mapping::MergedRuns merged;
+  try {
+    merged = mapping::merge_runs(
+        std::move(by_run), options,
+        [&](const std::string& stage, double share) { bars.update(stage, share); });
+  } catch (const mapping::NoOverlap& error) {
+    bars.finish();
+    throw std::runtime_error(fmt::format(
+        "{} shows no place for sure that the other runs show: no common map", runs[error.run()]));
+  }
+  bars.finish();
+  std::vector<mapping::MapKeyframe> all;
+  for (auto& keyframes : merged.runs) {
+    std::move(keyframes.begin(), keyframes.end(), std::back_inserter(all));
+  }
+  const auto rejected = std::count_if(merged.links.begin(), merged.links.end(),
+                                      [](const auto& link) { return link.weight < 0.25; });
+  fmt::print("{} runs brought together by {} links, {} of them rejected\n", runs.size(),
+             merged.links.size(), rejected);
+  return all;
 }
 
 void make_map(const MapArguments& arguments) {
-  const mapping::MapOptions options = options_from(arguments);
+  const MapSettings settings = settings_from(arguments);
+  const mapping::MapOptions& options = settings.map;
   files::make_writable_folder(arguments.destination);
   const mapping::MapFolder folder{arguments.destination};
-  auto keyframes = mapping::read_simple_map(simple_map_of(arguments.run));
-  std::optional<ProgressBar> bar;
-  std::string stage;
-  const auto summary = mapping::write_map(folder, std::move(keyframes), origin_of(arguments.run),
-                                          options, [&](const std::string& name, double share) {
-                                            if (name != stage) {
-                                              if (bar) bar->finish();
-                                              bar.emplace(name, 100, "%");
-                                              stage = name;
-                                            }
-                                            bar->update(static_cast<std::size_t>(100 * share));
-                                          });
-  if (bar) bar->finish();
+  StageBars bars;
+  auto keyframes = keyframes_of(arguments.runs, settings.merge, bars);
+  const auto summary = mapping::write_map(
+      folder, std::move(keyframes), origin_of(arguments.runs.front()), options,
+      [&](const std::string& stage, double share) { bars.update(stage, share); });
+  bars.finish();
   fmt::print("{} keyframes, {} points in {}\n", summary.keyframes, summary.points,
              folder.points().string());
   if (options.remove_moving) {
@@ -98,14 +175,22 @@ void add_map(CLI::App& app) {
   auto arguments = std::make_shared<MapArguments>();
   CLI::App* map = app.add_subcommand(
       "map", "points without moving objects, and an occupancy grid, from the keyframes of a run");
-  map->add_option("RUN", arguments->run, "run folder, or a simple map of MRPT")
+  map->add_option("RUN", arguments->runs, "run folders, or simple maps of MRPT, of one place")
       ->required()
       ->check(CLI::ExistingPath);
   map->add_option("-o,--output", arguments->destination, "folder of the map; made if not there")
       ->required()
       ->type_name("DIR");
   map->add_option("--set", arguments->assignments, "a setting, as in --set grid.cell_m=0.05")
-      ->type_name("KEY=VALUE");
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  map->add_flag_callback(
+      "--settings",
+      [] {
+        print_settings();
+        throw CLI::Success();
+      },
+      "list what --set takes, with its value and its meaning");
   map->add_flag("--attributes", arguments->attributes,
                 "time and keyframe of each point beside its intensity");
   map->add_flag("--keep-moving", arguments->keep_moving, "leave moving objects in");

@@ -323,9 +323,9 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
     write_results(source, results, folder);
     if (const auto slam_map = pipeline.estimator->slam_map()) {
       slam::write_loops(folder.loops(), slam_map->slam().loops());
-      if (slam_map->origin()) mapping::write_map_origin(folder.origin(), *slam_map->origin());
       slam::write_keyframes(folder.keyframes(), slam_map->slam().keyframes(),
                             [&](std::size_t k) { return slam_map->optimised(k); });
+      if (slam_map->origin()) mapping::write_map_origin(folder.origin(), *slam_map->origin());
     }
     observer.stage("evaluation");
     evaluate_run(source, results, folder, record);

@@ -1,0 +1,94 @@
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "traverse/dataset/point_cloud_file.hpp"
+#include "traverse/files/text_file.hpp"
+
+#include "end_to_end/program.hpp"
+#include "temporary_folder.hpp"
+
+namespace traverse {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using testing::ProgramResult;
+using testing::run_program;
+
+/// Two runs of 35 m of a simulated street that overlap, made once.
+class MapCommand : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new testing::TemporaryFolder;
+    const std::string rawlog = path("town.rawlog");
+    const ProgramResult made =
+        run_program("simulate town_loop --sensor vlp16 --first 100 --duration 4 -o " + rawlog);
+    ASSERT_EQ(made.status, 0) << made.messages;
+    const std::string run = "run " + rawlog + " --no-report ";
+    const ProgramResult first = run_program(run + "--last 29 -o " + path("run1"));
+    ASSERT_EQ(first.status, 0) << first.messages;
+    const ProgramResult second = run_program(run + "--first 8 -o " + path("run2"));
+    ASSERT_EQ(second.status, 0) << second.messages;
+  }
+  static void TearDownTestSuite() { delete folder_; }
+
+  static std::string path(const std::string& name) { return (*folder_ / name).string(); }
+
+  static testing::TemporaryFolder* folder_;
+};
+
+testing::TemporaryFolder* MapCommand::folder_ = nullptr;
+
+TEST_F(MapCommand, MakesPointsAndGridOfARun) {
+  const ProgramResult result =
+      run_program("map " + path("run1") + " --attributes -o " + path("map"));
+  ASSERT_EQ(result.status, 0) << result.messages;
+  EXPECT_THAT(result.messages, HasSubstr("moving objects"));
+  for (const char* file : {"map.ply", "map.simplemap", "grid.png", "grid.yaml"}) {
+    EXPECT_TRUE(fs::is_regular_file(fs::path(path("map")) / file)) << file;
+  }
+  const auto cloud = dataset::read_point_cloud(path("map") + "/map.ply");
+  EXPECT_GT(cloud.size(), 1000U);
+  for (const char* field : {"x", "y", "z", "intensity", "time", "keyframe"}) {
+    EXPECT_NE(cloud.find(field), nullptr) << field;
+  }
+  const ProgramResult again =
+      run_program("map " + path("map/map.simplemap") + " --no-grid -o " + path("again"));
+  EXPECT_EQ(again.status, 0) << again.messages;
+  EXPECT_FALSE(fs::exists(path("again/grid.png")));
+}
+
+TEST_F(MapCommand, MergesRunsThatOverlap) {
+  const ProgramResult result =
+      run_program("map " + path("run1") + " " + path("run2") +
+                  " --set grid.cell_m=0.2 --set merge.samples=8 -o " + path("merged"));
+  ASSERT_EQ(result.status, 0) << result.messages;
+  EXPECT_THAT(result.output, HasSubstr("2 runs brought together"));
+}
+
+TEST_F(MapCommand, SaysWhatIsWrong) {
+  EXPECT_EQ(run_program("map " + path("none") + " -o " + path("x")).status, 2);
+  EXPECT_EQ(run_program("map " + path("run1")).status, 2);
+  const ProgramResult unknown =
+      run_program("map " + path("run1") + " --set voxel=1 -o " + path("x"));
+  EXPECT_EQ(unknown.status, 1);
+  EXPECT_THAT(unknown.messages, HasSubstr("did you mean 'voxel_m'?"));
+  const ProgramResult no_map = run_program("map " + path("town.rawlog") + " -o " + path("x"));
+  EXPECT_EQ(no_map.status, 1);
+  EXPECT_THAT(no_map.messages, HasSubstr("town.rawlog: expected a simple map"));
+}
+
+TEST_F(MapCommand, ListsItsSettings) {
+  const ProgramResult result = run_program("map --settings");
+  EXPECT_EQ(result.status, 0) << result.messages;
+  for (const char* key : {"voxel_m", "free_space.least_votes", "grid.cell_m", "merge.samples"}) {
+    EXPECT_THAT(result.output, HasSubstr(key));
+  }
+}
+
+}  // namespace
+}  // namespace traverse
