@@ -34,6 +34,8 @@ EstimatorGroup::EstimatorGroup(nanogui::Widget* parent, Console& console)
     : FoldingGroup(parent, "Estimator", true), console_(console) {
   present_ = new nanogui::Label(content(), " ");
   present_->setFixedWidth(270);
+  present_->setTooltip(
+      "The pipeline at work, and the memory of the copies that make going back quick");
   const replay::Recording& recording = console.player().recording();
   if (recording.is_run() || !recording.has_lidar()) return;  // nothing to choose
 
