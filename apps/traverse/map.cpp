@@ -58,7 +58,10 @@ struct MapArguments {
 };
 
 fs::path simple_map_of(const fs::path& run) {
-  return fs::is_directory(run) ? pipeline::RunFolder{run}.simple_map() : run;
+  if (!fs::is_directory(run)) return run;
+  const pipeline::RunFolder folder{run};
+  // Keyframes of slam are denser.
+  return fs::exists(folder.keyframes()) ? folder.keyframes() : folder.simple_map();
 }
 
 std::optional<geodesy::Geodetic> origin_of(const fs::path& run) {

@@ -4,8 +4,10 @@
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
+#include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
@@ -66,6 +68,27 @@ TEST(ReadSimpleMap, TakesWhatOtherProgramsOfMrptPutIntoOne) {
   ASSERT_EQ(keyframes[0].size(), 2U);
   EXPECT_NEAR((keyframes[0].p_body(1) - keyframes[0].p_body_sensor).norm(), 4, 1e-5);
   EXPECT_NEAR(keyframes[0].z[0], 0.4, 1e-6);
+}
+
+TEST(ReadSimpleMap, TakesOnlyTheMapPointsOfAKeyframeThatHasOthersToo) {
+  const testing::TemporaryFolder folder;
+  auto frame = mrpt::obs::CSensoryFrame::Create();
+  for (const char* label : {"surface points", "map points"}) {
+    auto points = mrpt::maps::CPointsMapXYZI::Create();
+    points->insertPoint(1, 2, label[0] == 'm' ? 3.0F : 4.0F);
+    auto cloud = mrpt::obs::CObservationPointCloud::Create();
+    cloud->sensorLabel = label;
+    cloud->pointcloud = points;
+    frame->insert(cloud);
+  }
+  mrpt::maps::CSimpleMap map;
+  const mrpt::poses::CPose3DPDF::Ptr pose = mrpt::poses::CPose3DPDFGaussian::Create();
+  map.insert(pose, frame);
+  ASSERT_TRUE(map.saveToFile((folder / "keyframes.simplemap").string()));
+  const auto keyframes = read_simple_map(folder / "keyframes.simplemap");
+  ASSERT_EQ(keyframes.size(), 1U);
+  ASSERT_EQ(keyframes[0].size(), 1U);
+  EXPECT_EQ(keyframes[0].z[0], 3);
 }
 
 TEST(ReadSimpleMap, SaysWhatAFileIsNot) {

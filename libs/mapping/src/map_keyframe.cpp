@@ -50,6 +50,14 @@ void append(const mrpt::obs::CObservation& observation, MapKeyframe& keyframe) {
   if (observation.insertObservationInto(points)) append(points, {}, keyframe);
 }
 
+/// Keyframes of slam hold their points for maps beside those that scans are registered by.
+bool is_part_of_map(const mrpt::obs::CSensoryFrame& frame,
+                    const mrpt::obs::CObservation& observation) {
+  static const std::string kMapPoints = "map points";
+  return observation.sensorLabel == kMapPoints ||
+         frame.getObservationBySensorLabel(kMapPoints) == nullptr;
+}
+
 }  // namespace
 
 void MapKeyframe::keep_only(const std::vector<char>& keep) {
@@ -84,7 +92,9 @@ std::vector<MapKeyframe> read_simple_map(const std::filesystem::path& file) {
     map.get(k, pose, frame);
     MapKeyframe& keyframe = keyframes.emplace_back();
     keyframe.T_map_body = dataset::to_pose(pose->getMeanVal()).orthonormalised();
-    for (const auto& observation : *frame) append(*observation, keyframe);
+    for (const auto& observation : *frame) {
+      if (is_part_of_map(*frame, *observation)) append(*observation, keyframe);
+    }
     points += keyframe.size();
   }
   if (points == 0) throw error(fmt::format("{} keyframes without a point", keyframes.size()));
