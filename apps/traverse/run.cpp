@@ -10,10 +10,13 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "traverse/config/settings.hpp"
+#include "traverse/dataset/trajectory_files.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
+#include "traverse/pipeline/utm_trajectory.hpp"
 
 #include "budget_option.hpp"
 #include "command_line.hpp"
@@ -63,6 +66,7 @@ struct RunArguments {
   std::optional<std::size_t> last;
   int threads = 1;
   bool report = true;
+  bool utm = false;
   std::optional<std::filesystem::path> budget;
   bool hash = true;
   bool bench_factors = false;
@@ -82,6 +86,16 @@ void measure_factors(dataset::Source& source, const pipeline::RunRecord& record,
   source.rewind();
   files::write_text(folder.factor_bench(), to_json(measure_on_recording(source, record.first_frame,
                                                                         frame, kFactorRepeats)));
+}
+
+void write_utm(const pipeline::Estimator& estimator, const pipeline::RunFolder& folder) {
+  const auto origin = estimator.map_origin();
+  if (!origin) throw std::runtime_error("--utm: no fix tells where on Earth this way is");
+  const auto path = dataset::read_trajectory(folder.trajectory(), dataset::TrajectoryFormat::kTum);
+  const pipeline::UtmTrajectory utm = pipeline::to_utm(path, *origin);
+  dataset::write_tum(folder.utm_trajectory(), utm.T_utm_body);
+  fmt::print("UTM        zone {}{}, {}\n", utm.zone, utm.is_north ? 'N' : 'S',
+             folder.utm_trajectory().string());
 }
 
 /// A wrong preset or setting is wrong usage, told before anything is opened.
@@ -131,6 +145,7 @@ void run_recording(RunArguments& arguments, const std::vector<std::string>& comm
   observer.stage = [&](const std::string&) { bar.finish(); };
   const pipeline::RunRecord record = pipeline::run(*source, pipeline, folder, options, observer);
 
+  if (arguments.utm) write_utm(*pipeline.estimator, folder);
   if (arguments.bench_factors) measure_factors(*source, record, folder);
   std::optional<report::BudgetResult> budget;
   if (arguments.report) {
@@ -197,6 +212,8 @@ void add_run(CLI::App& app) {
                   "keep fixes back for spells of so many seconds, and tell the error after each")
       ->type_name("10,30,60");
   run->add_flag("!--no-report", arguments->report, "no pictures and no report.html");
+  run->add_flag("--utm", arguments->utm,
+                "write the way on the UTM grid too (RUN/trajectory_utm.tum)");
   add_budget_option(*run, arguments->budget);
   run->add_flag("!--no-hash", arguments->hash, "do not compute the recording's SHA-256");
   run->callback([arguments, run] {

@@ -27,6 +27,10 @@ class NavigationEstimator final : public Estimator {
   std::string points_are() const override { return "none used"; }
   std::vector<Decision> decisions() const override;
   std::vector<optimization::FactorUse> factors() const override;
+  std::optional<geodesy::Geodetic> map_origin() const override {
+    const auto& plane = navigation_.plane();
+    return plane ? std::optional(plane->origin()) : std::nullopt;
+  }
   std::unique_ptr<Estimator> clone() const override {
     return std::make_unique<NavigationEstimator>(*this);
   }

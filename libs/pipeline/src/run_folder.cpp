@@ -10,7 +10,7 @@ namespace traverse::pipeline {
 void RunFolder::prepare() const {
   files::make_writable_folder(path);
   for (const auto& place :
-       {record(), trajectory(), reference(), frames(), map_points(), simple_map(), sample_scan(),
+       {record(), trajectory(), utm_trajectory(), reference(), frames(), map_points(), simple_map(), sample_scan(),
         evaluation(), jacobians(), factor_bench(), images(), report(), report_json()}) {
     std::error_code failure;
     std::filesystem::remove_all(place, failure);

@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "traverse/geodesy/local_tangent_plane.hpp"
 #include "traverse/geometry/pose3.hpp"
 #include "traverse/geometry/stamp.hpp"
 #include "traverse/optimization/factor_kind.hpp"
@@ -75,6 +77,9 @@ class Estimator {
 
   /// An independent copy: fed the same measurements, both give the same bits (wall times aside).
   virtual std::unique_ptr<Estimator> clone() const = 0;
+
+  /// Where the map's origin is, x east and y north there; nothing if it is nowhere on Earth.
+  virtual std::optional<geodesy::Geodetic> map_origin() const { return std::nullopt; }
 
   /// The points that the next scan will be registered on, map frame; empty if there is no such map.
   virtual std::vector<Eigen::Vector3d> local_map() const { return {}; }

@@ -11,6 +11,8 @@ struct RunFolder {
 
   std::filesystem::path record() const { return path / "run.json"; }
   std::filesystem::path trajectory() const { return path / "trajectory.tum"; }
+  /// The same on the UTM grid, if it was asked for.
+  std::filesystem::path utm_trajectory() const { return path / "trajectory_utm.tum"; }
   std::filesystem::path reference() const { return path / "reference.tum"; }
   std::filesystem::path frames() const { return path / "frames.csv"; }
   std::filesystem::path map_points() const { return path / "map.ply"; }
