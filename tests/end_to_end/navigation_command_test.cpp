@@ -153,7 +153,9 @@ TEST_F(NavigationCommand, DeadReckonsARobotWithoutGnss) {
       run_program("run " + log.string() + " -o " + file("robot") +
                   " --no-report --no-hash --pipeline gins-window --recording-config " +
                   TRAVERSE_SHARE_DIR + "/recordings/wheel_imu_log.yaml" +
-                  " --set imu.accelerometer_density=0.05 --set imu.gyro_density=0.002");
+                  " --set imu.accelerometer_density=0.05 --set imu.gyro_density=0.002"
+                  " --set wheels.forward_mps=0.01 --set wheels.sideways_mps=0.02"
+                  " --set wheels.upwards_mps=0.02 --set wheels.gate=false");
   ASSERT_EQ(result.status, 0) << result.messages;
   const auto path = path_of("robot/trajectory.tum");
   EXPECT_GT(path.size(), 1000U);
