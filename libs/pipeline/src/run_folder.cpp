@@ -9,9 +9,9 @@ namespace traverse::pipeline {
 
 void RunFolder::prepare() const {
   files::make_writable_folder(path);
-  for (const auto& place :
-       {record(), trajectory(), utm_trajectory(), reference(), frames(), map_points(), simple_map(), sample_scan(),
-        evaluation(), jacobians(), factor_bench(), images(), report(), report_json()}) {
+  for (const auto& place : {record(), trajectory(), utm_trajectory(), reference(), frames(),
+                            map_points(), simple_map(), sample_scan(), evaluation(), jacobians(),
+                            factor_bench(), images(), report(), report_json()}) {
     std::error_code failure;
     std::filesystem::remove_all(place, failure);
     if (failure) throw files::OutputError(place, failure.message());
