@@ -39,10 +39,14 @@ constexpr const char* kExamples = R"(Examples:
   traverse convert drive.rawlog sequence --format kitti
   traverse convert drive slice.rawlog --first 100 --last 199 --gzip 6
 
+  traverse convert drive.rawlog log.txt                        IMU, wheels and GNSS as text
+
 A destination that ends in .rawlog is written as a rawlog, with its facts in X.traverse.yaml, its
-reference trajectory in X.reference.tum and its camera in X.calib.txt beside it. Any other
+reference trajectory in X.reference.tum and its camera in X.calib.txt beside it. One that ends in .txt
+becomes a text log with lines IMU, ODOM and GNSS, and its mountings in X.traverse.yaml. Any other
 destination becomes a folder, which must not be there yet or be empty.)";
 
+bool is_log(const fs::path& destination) { return destination.extension() == ".txt"; }
 bool is_rawlog(const fs::path& destination) { return destination.extension() == ".rawlog"; }
 
 /// The lidar whose scans are counted and, into a folder, written.
@@ -64,6 +68,9 @@ std::unique_ptr<RecordingWriter> open_writer(const Source& source, const Convert
   if (is_rawlog(options.destination)) {
     return dataset::write_rawlog(options.destination, source.info(), source.reference(),
                                  {options.gzip_level});
+  }
+  if (is_log(options.destination)) {
+    return dataset::write_navigation_log(options.destination, source.info(), source.reference());
   }
   if (lidar.empty()) {
     throw std::runtime_error("a folder holds lidar scans, and the recording has no lidar");
@@ -119,11 +126,11 @@ void run_convert(const ConvertOptions& options) {
 void add_convert(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "convert",
-      "Writes a recording as an MRPT rawlog or as a folder of scans, nothing lost that "
+      "Writes a recording as an MRPT rawlog, a folder of scans or a text log, nothing lost that "
       "the format can hold");
   auto options = std::make_shared<ConvertOptions>();
   add_recording_options(*command, options->recording, "SRC");
-  command->add_option("DST", options->destination, "X.rawlog, or a folder")->required();
+  command->add_option("DST", options->destination, "X.rawlog, X.txt, or a folder")->required();
   command->add_option("--format", options->format, "of a folder: pcd (default), ply or kitti")
       ->check(CLI::IsMember({"pcd", "ply", "kitti"}))
       ->option_text("NAME");

@@ -15,8 +15,10 @@
 #include <fmt/ranges.h>
 
 #include "traverse/config/settings.hpp"
+#include "traverse/dataset/trajectory_files.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
+#include "traverse/pipeline/utm_trajectory.hpp"
 
 #include "budget_option.hpp"
 #include "command_line.hpp"
@@ -69,6 +71,7 @@ struct RunArguments {
   std::optional<std::size_t> last;
   int threads = 1;
   bool report = true;
+  bool utm = false;
   std::optional<std::filesystem::path> budget;
   bool hash = true;
   bool bench_factors = false;
@@ -88,6 +91,16 @@ void measure_factors(dataset::Source& source, const pipeline::RunRecord& record,
   source.rewind();
   files::write_text(folder.factor_bench(), to_json(measure_on_recording(source, record.first_frame,
                                                                         frame, kFactorRepeats)));
+}
+
+void write_utm(const pipeline::Estimator& estimator, const pipeline::RunFolder& folder) {
+  const auto origin = estimator.map_origin();
+  if (!origin) throw std::runtime_error("--utm: no fix tells where on Earth this way is");
+  const auto path = dataset::read_trajectory(folder.trajectory(), dataset::TrajectoryFormat::kTum);
+  const pipeline::UtmTrajectory utm = pipeline::to_utm(path, *origin);
+  dataset::write_tum(folder.utm_trajectory(), utm.T_utm_body);
+  fmt::print("UTM        zone {}{}, {}\n", utm.zone, utm.is_north ? 'N' : 'S',
+             folder.utm_trajectory().string());
 }
 
 /// A wrong preset or setting is wrong usage, told before anything is opened.
@@ -147,6 +160,7 @@ void run_recording(RunArguments& arguments, const std::vector<std::string>& comm
   observer.stage = [&](const std::string&) { bar.finish(); };
   const pipeline::RunRecord record = pipeline::run(*source, pipeline, folder, options, observer);
 
+  if (arguments.utm) write_utm(*pipeline.estimator, folder);
   if (arguments.bench_factors) measure_factors(*source, record, folder);
   std::optional<report::BudgetResult> budget;
   if (arguments.report) {
@@ -207,6 +221,8 @@ CLI::App* add_estimating(CLI::App& app, const std::string& name, const std::stri
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   run->add_flag("!--no-report", arguments->report, "no pictures and no report.html");
+  run->add_flag("--utm", arguments->utm,
+                "write the way on the UTM grid too (RUN/trajectory_utm.tum)");
   add_budget_option(*run, arguments->budget);
   run->add_flag("!--no-hash", arguments->hash, "do not compute the recording's SHA-256");
   run->callback([arguments, run] {

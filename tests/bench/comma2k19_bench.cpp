@@ -9,8 +9,8 @@ namespace {
 using namespace traverse;
 
 void print(const char* name, const testing::PathError& e) {
-  std::printf("%-42s %6zu %10.3f %8.3f %8.4f %8.2f\n", name, e.poses, e.horizontal_rmse_m, e.rmse_m,
-              e.roughness_m, e.shift.head<2>().norm());
+  std::printf("%-42s %6zu %10.3f %8.3f %8.4f %8.2f %8.3f\n", name, e.poses, e.horizontal_rmse_m,
+              e.rmse_m, e.roughness_m, e.shift.head<2>().norm(), e.longer_percent);
 }
 
 }  // namespace
@@ -20,8 +20,8 @@ int main() {
     std::printf("%s is not there\n", testing::comma2k19().c_str());
     return 1;
   }
-  std::printf("%-42s %6s %10s %8s %8s %8s\n", "path", "poses", "horiz. m", "rmse m", "rough m",
-              "shift m");
+  std::printf("%-42s %6s %10s %8s %8s %8s %8s\n", "path", "poses", "horiz. m", "rmse m", "rough m",
+              "shift m", "long %");
   const auto recorded = testing::open_comma2k19({"csv.gnss.period_s=0"});
   print("fixes as recorded", testing::path_error(testing::fixes_of(*recorded), *recorded));
   const auto source = testing::open_comma2k19();

@@ -33,15 +33,19 @@ struct PathError {
   double horizontal_rmse_m = 0;
   double rmse_m = 0;
   double roughness_m = 0;  ///< rms of the second difference of the horizontal error, pose by pose
+  double longer_percent = 0;                        ///< than the reference, between the ends
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< that was taken off [m]
 };
 
 inline PathError path_error(const geometry::Trajectory& path, const dataset::Source& source) {
   const geometry::Trajectory& reference = source.reference()->T_map_body;
-  std::vector<Eigen::Vector3d> errors;
+  std::vector<Eigen::Vector3d> errors, places, truths;
   for (std::size_t k = 0; k < path.size(); ++k) {
     const auto truth = reference.at(path.stamp(k), 0.1);
-    if (truth) errors.emplace_back(path.pose(k).translation - truth->translation);
+    if (!truth) continue;
+    errors.emplace_back(path.pose(k).translation - truth->translation);
+    places.push_back(path.pose(k).translation);
+    truths.push_back(truth->translation);
   }
   PathError e;
   e.poses = errors.size();
@@ -55,6 +59,9 @@ inline PathError path_error(const geometry::Trajectory& path, const dataset::Sou
     const Eigen::Vector3d bend = errors[k] - 2 * errors[k - 1] + errors[k - 2];
     e.roughness_m += bend.head<2>().squaredNorm() / (count - 2);
   }
+  const double true_way = (truths.back() - truths.front()).head<2>().norm();
+  const double way = (places.back() - places.front()).head<2>().norm();
+  e.longer_percent = 100 * (way / true_way - 1);  // the road is all but straight
   e.horizontal_rmse_m = std::sqrt(e.horizontal_rmse_m);
   e.rmse_m = std::sqrt(e.rmse_m);
   e.roughness_m = std::sqrt(e.roughness_m);

@@ -172,6 +172,9 @@ class RawlogWriter : public RecordingWriter {
         sidecar_.T_camera_lidar = info_.T_body_camera->inverse() * lidar->T_body_sensor;
       }
     }
+    if (const auto* wheels = info_.rig.first(sensors::SensorKind::kWheels)) {
+      sidecar_.wheels = *wheels;  // MRPT's odometry has no mounting
+    }
     const auto beside = [&](const char* extension) {
       return fs::path(file_).replace_extension(extension);
     };

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "traverse/config/binder.hpp"
 #include "traverse/config/settings.hpp"
@@ -51,6 +52,24 @@ void write_sidecar(const Sidecar& sidecar, const SidecarFiles& files) {
           });
         }
         if (values.T_camera_lidar) b.text("calibration", calibration, "");
+        if (values.vehicle) {
+          b.group("vehicle", "", [&](config::Binder& vehicle) { bind(vehicle, *values.vehicle); });
+        } else if (values.wheels) {
+          auto encoder = values.wheels->encoder.value_or(sensors::WheelEncoder{});
+          const Eigen::Vector3d& p = values.wheels->T_body_sensor.translation;
+          std::vector<double> position{p.x(), p.y(), p.z()};
+          b.group("vehicle", "", [&](config::Binder& vehicle) {
+            vehicle.group("wheels", "", [&](config::Binder& wheels) {
+              const auto positive = config::Range::non_negative();
+              wheels.numbers("position_m", position, "");
+              wheels.number("left_m_per_pulse", encoder.left_m_per_pulse, positive, "");
+              wheels.number("right_m_per_pulse", encoder.right_m_per_pulse, positive, "");
+            });
+          });
+        }
+        if (values.log) {
+          b.group("log", "", [&](config::Binder& log) { bind(log, *values.log); });
+        }
         if (values.profile) {
           b.group("lidar", "", [&](config::Binder& lidar) { bind(lidar, *values.profile); });
         }

@@ -6,6 +6,10 @@
 
 #include "traverse/dataset/source.hpp"
 #include "traverse/sensors/lidar_profile.hpp"
+#include "traverse/sensors/rig.hpp"
+
+#include "log_statements.hpp"
+#include "vehicle_statements.hpp"
 
 namespace traverse::dataset {
 
@@ -18,6 +22,9 @@ struct Sidecar {
   std::optional<geometry::Trajectory> reference;  ///< T_map_body of the copy's body
   std::optional<geometry::Pose3> T_camera_lidar;
   std::optional<Eigen::Vector3d> north_map;  ///< in the map of the reference
+  std::optional<VehicleStatements> vehicle;      ///< of a copy that has no place for mountings
+  std::optional<sensors::MountedSensor> wheels;  ///< of a copy that has, but not for wheels
+  std::optional<LogStatements> log;
 };
 
 /// The names of the files, all in one folder.

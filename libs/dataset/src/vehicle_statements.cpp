@@ -1,5 +1,6 @@
 #include "vehicle_statements.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -55,6 +56,35 @@ void bind(Binder& b, VehicleStatements& v) {
     wheels.number("right_m_per_pulse", v.right_m_per_pulse, Range::non_negative(),
                   "distance that a pulse tells");
   });
+}
+
+VehicleStatements vehicle_statements_of(const sensors::Rig& rig) {
+  const auto position = [&](SensorKind kind) {
+    const auto* sensor = rig.first(kind);
+    const Eigen::Vector3d p =
+        sensor == nullptr ? Eigen::Vector3d::Zero() : sensor->T_body_sensor.translation;
+    return std::vector<double>{p.x(), p.y(), p.z()};
+  };
+  VehicleStatements v;
+  v.imu_position_m = position(SensorKind::kImu);
+  v.gnss_position_m = position(SensorKind::kGnss);
+  v.wheels_position_m = position(SensorKind::kWheels);
+  v.imu_roll_pitch_yaw_deg = {0, 0, 0};
+  if (const auto* imu = rig.first(SensorKind::kImu)) {
+    const Eigen::Matrix3d& R = imu->T_body_sensor.rotation;
+    v.imu_roll_pitch_yaw_deg = {std::atan2(R(2, 1), R(2, 2)) / kRadiansPerDegree,
+                                -std::asin(std::clamp(R(2, 0), -1.0, 1.0)) / kRadiansPerDegree,
+                                std::atan2(R(1, 0), R(0, 0)) / kRadiansPerDegree};
+  }
+  if (const auto* gnss = rig.first(SensorKind::kGnss)) {
+    const Eigen::Matrix3d& R = gnss->T_body_sensor.rotation;
+    v.gnss_heading_offset_deg = std::atan2(R(1, 0), R(0, 0)) / kRadiansPerDegree;
+  }
+  if (const auto* wheels = rig.first(SensorKind::kWheels); wheels && wheels->encoder) {
+    v.left_m_per_pulse = wheels->encoder->left_m_per_pulse;
+    v.right_m_per_pulse = wheels->encoder->right_m_per_pulse;
+  }
+  return v;
 }
 
 Eigen::Matrix3d stated_rotation(const Statements& statements, const std::string& key,

@@ -24,6 +24,9 @@ struct VehicleStatements {
 };
 void bind(config::Binder& binder, VehicleStatements& vehicle);
 
+/// What states the mounting of the first IMU, receiver and wheels of `rig`.
+VehicleStatements vehicle_statements_of(const sensors::Rig& rig);
+
 /// The rotation about x, then y, then z that three numbers in degrees state; the identity for none.
 /// \throws files::InputError for a vector that has not three numbers
 Eigen::Matrix3d stated_rotation(const Statements& statements, const std::string& key,

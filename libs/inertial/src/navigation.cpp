@@ -13,6 +13,7 @@
 #include "map_fix.hpp"
 #include "navigation_start.hpp"
 #include "outage_schedule.hpp"
+#include "pairing.hpp"
 #include "wheel_constraint.hpp"
 #include "wheel_speed.hpp"
 
@@ -23,27 +24,6 @@ using geometry::Stamp;
 using sensors::GnssFix;
 using sensors::ImuSample;
 using sensors::WheelOdometry;
-
-namespace {
-
-/// Pairing::kAlike counts each measurement twice, in each of two states: at half its weight that is
-/// once.
-constexpr double kAlikeVariance = 2;
-
-bool is_pairing_alike(const NavigationOptions& options) {
-  return options.trigger == Trigger::kGnssAndWheels && options.pairing == Pairing::kAlike;
-}
-
-WheelOptions weighed(const NavigationOptions& options) {
-  WheelOptions wheels = options.wheels;
-  if (!is_pairing_alike(options)) return wheels;
-  for (double* sigma : {&wheels.forward_mps, &wheels.sideways_mps, &wheels.upwards_mps}) {
-    *sigma *= std::sqrt(kAlikeVariance);
-  }
-  return wheels;
-}
-
-}  // namespace
 
 class Navigation::Impl {
  public:

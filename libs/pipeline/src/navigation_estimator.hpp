@@ -28,6 +28,10 @@ class NavigationEstimator final : public Estimator {
   std::vector<Decision> decisions() const override;
   std::optional<Eigen::Vector3d> north_map() const override;
   std::vector<optimization::FactorUse> factors() const override;
+  std::optional<geodesy::Geodetic> map_origin() const override {
+    const auto& plane = navigation_.plane();
+    return plane ? std::optional(plane->origin()) : std::nullopt;
+  }
   std::unique_ptr<Estimator> clone() const override {
     return std::make_unique<NavigationEstimator>(*this);
   }

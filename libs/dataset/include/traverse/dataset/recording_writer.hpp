@@ -47,6 +47,14 @@ std::unique_ptr<RecordingWriter> write_rawlog(const std::filesystem::path& file,
                                               const std::optional<Reference>& reference,
                                               const RawlogOptions& options);
 
+/// Writes `file` as a text log with lines IMU, ODOM and GNSS (rad/s, cumulative pulses), with the
+/// mountings and how to read it in X.traverse.yaml and the reference in X.reference.tum beside it.
+/// It holds the first sensor of each of these kinds; wheels that count no pulses, fixes without an
+/// altitude and deviations of fixes have no place in it.
+std::unique_ptr<RecordingWriter> write_navigation_log(const std::filesystem::path& file,
+                                                      const RecordingInfo& info,
+                                                      const std::optional<Reference>& reference);
+
 enum class ScanFolderFormat { kPcd, kPly, kKitti };
 
 /// Writes the scans of one lidar as `folder`: scans named by their number, times.txt,

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "traverse/geodesy/local_tangent_plane.hpp"
 #include "traverse/geometry/pose3.hpp"
 #include "traverse/geometry/stamp.hpp"
 #include "traverse/optimization/factor_kind.hpp"
@@ -87,6 +88,9 @@ class Estimator {
 
   /// About how much memory a copy takes, where it is more than a few kilobytes.
   virtual std::size_t bytes() const { return 0; }
+
+  /// Where the map's origin is, x east and y north there; nothing if it is nowhere on Earth.
+  virtual std::optional<geodesy::Geodetic> map_origin() const { return std::nullopt; }
 
   /// The points that the next scan will be registered on, map frame; empty if there is no such map.
   virtual std::vector<Eigen::Vector3d> local_map() const { return {}; }

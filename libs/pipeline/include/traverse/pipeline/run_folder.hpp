@@ -11,6 +11,8 @@ struct RunFolder {
 
   std::filesystem::path record() const { return path / "run.json"; }
   std::filesystem::path trajectory() const { return path / "trajectory.tum"; }
+  /// The same on the UTM grid, if it was asked for.
+  std::filesystem::path utm_trajectory() const { return path / "trajectory_utm.tum"; }
   /// The raw poses of the odometry that loops were closed over, and their evaluation.
   std::filesystem::path odometry() const { return path / "odometry.tum"; }
   std::filesystem::path odometry_evaluation() const { return path / "odometry_evaluation.json"; }
