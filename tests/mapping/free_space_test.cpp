@@ -92,7 +92,7 @@ TEST(FreeSpace, TakesMovingVehiclesAndLeavesTheStreet) {
   std::printf("free: %.2f %% of the points on vehicles, %.3f %% of the others\n",
               100 * shares.moving, 100 * shares.standing);
   EXPECT_GT(shares.moving, 0.9);
-  EXPECT_LT(shares.standing, 0.01);
+  EXPECT_LT(shares.standing, 1e-4);  // four times as many without regard to incidence
 }
 
 TEST(FreeSpace, WithoutMovementNothingIsFree) {
