@@ -21,7 +21,7 @@ struct Sidecar {
   std::optional<sensors::LidarProfile> profile;   ///< of the data as they are in the copy
   std::optional<geometry::Trajectory> reference;  ///< T_map_body of the copy's body
   std::optional<geometry::Pose3> T_camera_lidar;
-  std::optional<Eigen::Vector3d> north_map;  ///< in the map of the reference
+  std::optional<Eigen::Vector3d> north_map;      ///< in the map of the reference
   std::optional<VehicleStatements> vehicle;      ///< of a copy that has no place for mountings
   std::optional<sensors::MountedSensor> wheels;  ///< of a copy that has, but not for wheels
   std::optional<LogStatements> log;

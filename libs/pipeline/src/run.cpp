@@ -110,10 +110,10 @@ class Results {
   }
   std::optional<evaluation::Consistency> odometry_consistency() const {
     return waiting_.score(*odometry_, estimator_.points_are());
-    /// How the worst frames were registered, under their final poses.
-    dataset::PointCloud worst_frames(const evaluation::WorstSegments& worst) {
-      return recorder_.worst_frames(worst, trajectory_, first_frame_);
-    }
+  }
+  /// How the worst frames were registered, under their final poses.
+  dataset::PointCloud worst_frames(const evaluation::WorstSegments& worst) {
+    return recorder_.worst_frames(worst, trajectory_, first_frame_);
   }
 
  private:

@@ -30,7 +30,7 @@ AlignmentOptions brief(AlignmentOptions options) {
 }
 
 /// One more round with a gate so narrow that only points on their surfaces match.
-AlignmentOptions on_surfaces(AlignmentOptions options, double gate_m) {
+AlignmentOptions only_on_surfaces(AlignmentOptions options, double gate_m) {
   options.rounds = 1;
   options.gate_m = gate_m;
   options.narrow_gate_m = gate_m;
@@ -119,11 +119,11 @@ LoopRegistration register_in(const Submap& submap, const lidar::voxel::SweepSamp
   result.support = support_of(found);
   if (!found.health.registered) return result;
 
-  const Alignment check =
-      align_from(found.T_map_lidar, on_surfaces(options.alignment, options.on_surface_m), Effort{});
+  const Alignment check = align_from(
+      found.T_map_lidar, only_on_surfaces(options.alignment, options.on_surface_m), Effort{});
   const std::size_t points = features.planar.size() + features.edges.size();
-  const std::size_t matches = check.health.plane_matches + check.health.line_matches;
-  result.overlap = points == 0 ? 0 : static_cast<double>(matches) / static_cast<double>(points);
+  const std::size_t on_surfaces = check.health.plane_matches + check.health.line_matches;
+  result.overlap = points == 0 ? 0 : static_cast<double>(on_surfaces) / static_cast<double>(points);
   return result;
 }
 
