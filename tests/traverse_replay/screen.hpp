@@ -51,7 +51,11 @@ class Screen {
                30);
     display_ = ":" + output_of("cat '" + file + "'");
   }
-  ~Screen() { std::system(("kill " + pid_).c_str()); }
+  /// Waits for its end: dying it would take the socket of a next one with the same number along.
+  ~Screen() {
+    output_of("kill " + pid_);
+    eventually([&] { return !std::filesystem::exists("/proc/" + pid_); }, 30);
+  }
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 

@@ -54,6 +54,7 @@ class SlamEstimator final : public Estimator {
     return SlamMap(slam_, odometry_->sensor().T_body_sensor, origin);
   }
   std::unique_ptr<Estimator> clone() const override;
+  std::size_t bytes() const override { return odometry_->bytes(); }  // copies share keyframes
   std::vector<Eigen::Vector3d> local_map() const override { return odometry_->local_map(); }
   std::vector<MatchedPoint> matches() const override { return odometry_->matches(); }
 

@@ -160,18 +160,6 @@ void add_health(const pipeline::FrameTable& frames, Json& charts) {
               charts);
 }
 
-/// The biases of an inertial estimator: columns "gyro_bias_x_rad_s", "accelerometer_bias_x_m_s2".
-void add_biases(const pipeline::FrameTable& frames, Json& charts) {
-  add_columns(frames, {"gyro-bias", "health", "Bias of the gyroscope", "rad/s"},
-              {{"x", "gyro_bias_x_rad_s"}, {"y", "gyro_bias_y_rad_s"}, {"z", "gyro_bias_z_rad_s"}},
-              false, 1, charts);
-  add_columns(frames, {"accelerometer-bias", "health", "Bias of the accelerometer", "m/s²"},
-              {{"x", "accelerometer_bias_x_m_s2"},
-               {"y", "accelerometer_bias_y_m_s2"},
-               {"z", "accelerometer_bias_z_m_s2"}},
-              false, 1, charts);
-}
-
 void add_timing(const pipeline::FrameTable& frames, Json& charts) {
   Chart chart("timing", "timing", "Time of each stage, one on top of the other", "ms");
   chart.flag("stacked");
@@ -196,7 +184,6 @@ void add_charts(const RunData& run, Model& model) {
     add_association(run, charts);
   }
   add_health(run.frames, charts);
-  add_biases(run.frames, charts);
   add_navigation_charts(run.frames, charts);
   add_timing(run.frames, charts);
   model.json["charts"] = std::move(charts);
