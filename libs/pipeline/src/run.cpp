@@ -19,148 +19,25 @@
 #include "traverse/evaluation/worst_segments.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/digest.hpp"
-#include "traverse/mapping/keyframe_map.hpp"
 #include "traverse/mapping/map_origin.hpp"
-#include "traverse/mapping/voxel_map.hpp"
 #include "traverse/optimization/jacobian_audit.hpp"
 #include "traverse/pipeline/factor_kinds.hpp"
-#include "traverse/pipeline/frame_table.hpp"
 #include "traverse/slam/keyframe_file.hpp"
 #include "traverse/slam/slam.hpp"
 
-#include "frame_recorder.hpp"
-#include "slam_results.hpp"
+#include "run_results.hpp"
 #include "waiting_scans.hpp"
 
 namespace traverse::pipeline {
 
 namespace {
 
-/// The consistency score holds the points of the scans it is given; of a long recording it takes
-/// every so manieth scan, to stay below this many.
-constexpr std::size_t kMostScoredScans = 500;
-
 /// Thrown through the reading loop when the user stops the run.
 class Stopped : public std::exception {};
 
-std::vector<std::string> table_columns(const Estimator& estimator) {
-  std::vector<std::string> columns{"frame", "stamp_s"};
-  columns.insert(columns.end(), estimator.columns().begin(), estimator.columns().end());
-  columns.emplace_back("total_ms");
-  return columns;
-}
-
-/// Takes frames as they come and keeps what the run folder will hold.
-class Results {
- public:
-  Results(const Estimator& estimator, const dataset::RecordingInfo& recording,
-          const RunOptions& options, const RunFolder& folder)
-      : estimator_(estimator),
-        recording_(recording),
-        first_frame_(options.first),
-        score_every_(recording.expected_scans / kMostScoredScans + 1),
-        frames_(table_columns(estimator)),
-        scorer_(estimator.points_are()),
-        map_(options.map_voxel_m, options.most_map_points),
-        keyframes_(mapping::KeyframeMapOptions{}),
-        closes_loops_(estimator.slam_map().has_value()),
-        recorder_(folder.path, estimator) {}
-
-  /// \param latest the estimator has given none after it
-  void add(const PoseFrame& frame, const ScanPtr& scan, bool latest) {
-    add_row(frame);
-    trajectory_.push_back(frame.stamp, frame.T_map_body);
-    if (scan == nullptr) return;
-    const bool sample = is_sample();
-    const std::size_t pose = trajectory_.size() - 1;
-    const bool scored = pose % score_every_ == 0;
-    const bool recorded = latest && recorder_.wants(pose, frame);
-    sensor_ = scan->sensor;
-    if (closes_loops_ && !sample && !scored && !recorded) return;
-    const UsedScan used = estimator_.used_scan(*scan, frame, sample);
-    if (!closes_loops_) add_to_maps(frame, used);
-    if (scored && closes_loops_) waiting_.add(pose, used);
-    if (scored && !closes_loops_) scorer_.add(used.x, used.y, used.z, frame.T_map_body);
-    if (recorded) recorder_.add(pose, frame, used);
-    if (sample) {
-      sample_ = used;
-      sample_frame_ = first_frame_ + frames_.rows().size() - 1;
-    }
-  }
-
-  /// Once the last frame is in: the trajectory and the maps by what loops have taught.
-  void correct() {
-    const std::optional<SlamMap> slam_map = estimator_.slam_map();
-    if (!slam_map) return;
-    odometry_ = std::exchange(trajectory_, slam_map->corrected(trajectory_));
-    rebuild_maps(*slam_map, sensor_, map_, keyframes_);
-  }
-
-  /// The final poses of the frames.
-  const geometry::Trajectory& trajectory() const { return trajectory_; }
-  /// Those by odometry alone, if loops were closed over it.
-  const std::optional<geometry::Trajectory>& odometry() const { return odometry_; }
-  const FrameTable& frames() const { return frames_; }
-  const mapping::VoxelMap& map() const { return map_; }
-  const mapping::KeyframeMap& keyframes() const { return keyframes_; }
-  const UsedScan& sample() const { return sample_; }
-  std::size_t sample_frame() const { return sample_frame_; }
-  std::optional<evaluation::Consistency> consistency() {
-    return closes_loops_ ? waiting_.score(trajectory_, estimator_.points_are()) : scorer_.score();
-  }
-  std::optional<evaluation::Consistency> odometry_consistency() const {
-    return waiting_.score(*odometry_, estimator_.points_are());
-  }
-  /// How the worst frames were registered, under their final poses.
-  dataset::PointCloud worst_frames(const evaluation::WorstSegments& worst) {
-    return recorder_.worst_frames(worst, trajectory_, first_frame_);
-  }
-
- private:
-  void add_to_maps(const PoseFrame& frame, const UsedScan& used) {
-    map_.insert(used.x, used.y, used.z, used.intensity, frame.T_map_body);
-    if (!keyframes_.wants(frame.T_map_body)) return;
-    const sensors::MountedSensor* lidar = recording_.rig.find(sensor_);
-    keyframes_.add(frame.stamp, sensor_, used.x, used.y, used.z, used.intensity, frame.T_map_body,
-                   lidar == nullptr ? Eigen::Vector3d::Zero() : lidar->T_body_sensor.translation);
-  }
-
-  void add_row(const PoseFrame& frame) {
-    std::vector<double> row{static_cast<double>(first_frame_ + frames_.rows().size()),
-                            frame.stamp.seconds()};
-    row.insert(row.end(), frame.record.begin(), frame.record.end());
-    row.push_back(frame.milliseconds);
-    frames_.add_row(std::move(row));
-  }
-
-  /// The scan to show is one from the middle of the run: without knowing how long the run will be,
-  /// the latest whose number is a power of two lies in its second half.
-  bool is_sample() const {
-    const std::size_t number = frames_.rows().size() - 1;
-    return (number & (number - 1)) == 0;
-  }
-
-  const Estimator& estimator_;
-  const dataset::RecordingInfo& recording_;  ///< of the source: a rawlog's rig grows in reading
-  std::size_t first_frame_;
-  std::size_t score_every_;
-  geometry::Trajectory trajectory_;
-  FrameTable frames_;
-  evaluation::ConsistencyScorer scorer_;
-  mapping::VoxelMap map_;
-  mapping::KeyframeMap keyframes_;
-  bool closes_loops_;
-  FrameRecorder recorder_;
-  std::optional<geometry::Trajectory> odometry_;
-  WaitingForScore waiting_;
-  std::string sensor_;
-  UsedScan sample_;
-  std::size_t sample_frame_ = 0;
-};
-
 /// Reads, estimates and collects. \returns whether the user stopped it.
 bool estimate_all(dataset::Source& source, Estimator& estimator, const RunOptions& options,
-                  const RunObserver& observer, Results& results) {
+                  const RunObserver& observer, RunResults& results) {
   WaitingScans waiting;
   std::size_t done = 0;
   const auto collect = [&](const std::vector<PoseFrame>& frames) {
@@ -217,7 +94,7 @@ evaluation::Evaluation evaluate_trajectory(const dataset::Source& source,
 
 /// Accuracy against the reference if there is one, and the sharpness of the map in any case; how
 /// the worst frames were registered; accuracy of odometry alone if loops were closed over it.
-void evaluate_run(const dataset::Source& source, Results& results, const RunFolder& folder,
+void evaluate_run(const dataset::Source& source, RunResults& results, const RunFolder& folder,
                   RunRecord& record) {
   evaluation::Evaluation evaluation = evaluate_trajectory(source, results.trajectory(), record);
   if (!record.north_map && evaluation.comparison && source.reference()->north_map) {
@@ -244,7 +121,7 @@ void check_jacobians(const Estimator& estimator, const RunFolder& folder) {
   files::write_text(folder.jacobians(), optimization::to_json(audit));
 }
 
-void fill_results(const Results& results, RunRecord& record) {
+void fill_results(const RunResults& results, RunRecord& record) {
   record.frames_used = results.frames().rows().size();
   record.sample_frame = results.sample_frame();
   record.map_points = results.map().size();
@@ -253,7 +130,8 @@ void fill_results(const Results& results, RunRecord& record) {
   summarise_timing(results.frames(), record);
 }
 
-void write_results(const dataset::Source& source, const Results& results, const RunFolder& folder) {
+void write_results(const dataset::Source& source, const RunResults& results,
+                   const RunFolder& folder) {
   dataset::write_tum(folder.trajectory(), results.trajectory());
   if (source.reference()) dataset::write_tum(folder.reference(), source.reference()->T_map_body);
   if (results.odometry()) dataset::write_tum(folder.odometry(), *results.odometry());
@@ -307,7 +185,7 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
   };
   folder.prepare();
   try {
-    Results results(*pipeline.estimator, source.info(), options, folder);
+    RunResults results(*pipeline.estimator, source.info(), options, folder);
     const bool stopped = estimate_all(source, *pipeline.estimator, options, observer, results);
     record.decisions = pipeline.estimator->decisions();  // some are made on the way
     record.north_map = pipeline.estimator->north_map();
