@@ -123,9 +123,11 @@ void write_keyframes(const std::filesystem::path& file, const KeyframeStore& key
   if (!map.saveToFile(target.temporary_path().string())) {
     throw files::OutputError(file, "MRPT could not write the keyframes");
   }
+  map.clear();  // one copy in memory is enough
   // MRPT's stream does not tell a full disk, so the map is read back.
   mrpt::maps::CSimpleMap written;
-  if (!written.loadFromFile(target.temporary_path().string()) || written.size() != map.size()) {
+  if (!written.loadFromFile(target.temporary_path().string()) ||
+      written.size() != keyframes.size()) {
     throw files::OutputError(file, "not every keyframe was written (is the disk full?)");
   }
   target.commit();
