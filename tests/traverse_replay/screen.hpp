@@ -43,10 +43,10 @@ class Screen {
  public:
   explicit Screen(const std::filesystem::path& folder) {
     const std::string file = (folder / "display").string();
-    pid_ =
-        output_of(fmt::format("Xvfb -displayfd 3 -noreset -screen 0 1100x800x24 +extension GLX 3> '{}' "
-                              "> /dev/null 2>&1 & echo $!",
-                              file));
+    pid_ = output_of(
+        fmt::format("Xvfb -displayfd 3 -noreset -screen 0 1100x800x24 +extension GLX 3> '{}' "
+                    "> /dev/null 2>&1 & echo $!",
+                    file));
     eventually([&] { return std::filesystem::exists(file) && !files::read_text(file).empty(); },
                30);
     display_ = ":" + output_of("cat '" + file + "'");
