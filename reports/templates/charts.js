@@ -116,6 +116,9 @@
     return [axis[0], axis[axis.length - 1] || 1];
   };
 
+  // The library's own labels round small numbers until neighbours look alike.
+  const axisLabel = (value) => String(Number(value.toPrecision(4))).replace("-", "−");
+
   const makeView = (chart, place) => {
     const view = { chart, poses: posesOf(chart), element: element("figure", "chart") };
     view.axis = axisOf(chart, view.poses);
@@ -138,6 +141,7 @@
       colors: [...names.map((_, k) => kSeries[k % kSeries.length]), ...(chart.level ? ["#8a8f98"] : [])],
       legend: "never", logscale: chart.log, fillGraph: chart.stacked, strokeWidth: 1.5,
       drawPoints: chart.points, pointSize: 2.5, highlightCircleSize: 4, animatedZooms: false,
+      axes: { x: { axisLabelFormatter: axisLabel }, y: { axisLabelFormatter: axisLabel } },
       axisLabelFontSize: 12, axisLineColor: ink().axis, gridLineColor: ink().grid, rightGap: 12,
       includeZero: !chart.log && chart.series.every((s) => s.values.every((v) => v === null || v >= 0)),
       connectSeparatedPoints: false, customBars: hasBand(chart), fillAlpha: 0.15,
