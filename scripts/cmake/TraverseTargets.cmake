@@ -33,6 +33,14 @@ if(TRAVERSE_SANITIZE)
   target_link_options(traverse_build_flags INTERFACE -fsanitize=${TRAVERSE_SANITIZE})
 endif()
 
+# What is tested is optimised and instrumented in full. The tests' own sources need neither: they
+# compile in two thirds of the time without.
+add_library(traverse_test_flags INTERFACE)
+target_compile_options(traverse_test_flags INTERFACE $<$<NOT:$<CONFIG:Debug>>:-O1>)
+if(TRAVERSE_SANITIZE MATCHES undefined)
+  target_compile_options(traverse_test_flags INTERFACE -fno-sanitize=undefined)
+endif()
+
 # traverse_library(NAME SOURCES ... [USES ...] [PRIVATELY_USES ...])
 #
 # Defines traverse::NAME from libs/NAME. USES are the libraries that its public headers show,
@@ -64,7 +72,8 @@ function(traverse_test name)
   target_compile_definitions(${name}_test PRIVATE
     TRAVERSE_SOURCE_DIR="${CMAKE_SOURCE_DIR}" TRAVERSE_SHARE_DIR="${CMAKE_SOURCE_DIR}/share")
   target_link_libraries(${name}_test
-    PRIVATE ${ARG_USES} GTest::gmock GTest::gtest_main traverse_build_flags)
+    PRIVATE ${ARG_USES} GTest::gmock GTest::gtest_main traverse_build_flags
+    traverse_test_flags)
   if(NOT ARG_SHARDS)
     add_test(NAME ${name} COMMAND ${name}_test)
     set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT})
