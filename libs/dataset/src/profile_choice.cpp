@@ -114,6 +114,12 @@ void add_profile_facts(const ProfileChoice& choice, const Statements& statements
                                            : fmt::format("{:+g} deg, applied when the scan is used",
                                                          profile.vertical_correction_deg),
       {"lidar.vertical_correction_deg"});
+  add("round poles",
+      profile.pole_depth == 0
+          ? "the mean of the returns is taken for the axis"
+          : fmt::format("the axis lies {:.3g} radii behind the mean of the returns",
+                        profile.pole_depth),
+      {"lidar.pole_depth"});
 }
 
 }  // namespace traverse::dataset

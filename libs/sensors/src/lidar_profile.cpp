@@ -59,6 +59,8 @@ void bind(config::Binder& b, LidarProfile& p) {
            "share of the sweep that is over at the scan's stamp");
   b.number("vertical_correction_deg", p.vertical_correction_deg, Range::between(-5, 5),
            "added to the elevation of every point");
+  b.number("pole_depth", p.pole_depth, Range::between(0, 1),
+           "from the axis of a round pole to the mean of its returns, in radii");
   b.group("firing", "when and where the beams fire, for the simulator",
           [&](config::Binder& group) { bind(group, p.firing); });
   b.group("noise", "how well it measures, for the simulator",

@@ -59,6 +59,7 @@ void for_each_column(AnyRow& row, const Visit& visit) {
   visit("source", loop.source);
   visit("verdict", loop.verdict);
   visit("overlap", loop.overlap);
+  visit("submap_overlap", loop.submap_overlap);
   visit("residual_rms_m", loop.residual_rms_m);
   visit("weakest_eigenvalue", loop.weakest_eigenvalue);
   visit("odometry_chi2", loop.odometry_chi2);

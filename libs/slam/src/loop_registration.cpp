@@ -17,6 +17,7 @@ using lidar::voxel::AlignmentOptions;
 using lidar::voxel::Effort;
 
 constexpr Effort kMuchEffort{6, 2};
+const lidar::voxel::MotionModel kStanding{{}, 1, false};  // keyframes are deskewed
 constexpr double kDegree = std::numbers::pi / 180;
 
 std::size_t support_of(const Alignment& found) {
@@ -89,16 +90,30 @@ std::vector<geometry::Pose3> starts_around(const geometry::Pose3& guess, const S
   return poses;
 }
 
+double overlap_at(const geometry::Pose3& T_centre_lidar, const Submap& submap,
+                  const lidar::voxel::SweepSample& features,
+                  const LoopRegistrationOptions& options) {
+  const std::size_t points = features.planar.size() + features.edges.size();
+  if (points == 0) return 0;
+  lidar::voxel::Workers alone(1);
+  lidar::StageTimes ignored;
+  lidar::voxel::ScanMatches matches;
+  const Alignment found = align(features, submap.map, kStanding, T_centre_lidar,
+                                only_on_surfaces(options.alignment, options.on_surface_m), Effort{},
+                                alone, matches, ignored);
+  const std::size_t on_surfaces = found.health.plane_matches + found.health.line_matches;
+  return static_cast<double>(on_surfaces) / static_cast<double>(points);
+}
+
 LoopRegistration register_in(const Submap& submap, const lidar::voxel::SweepSample& features,
                              std::span<const geometry::Pose3> starts_centre_lidar,
                              const LoopRegistrationOptions& options) {
   lidar::voxel::Workers alone(1);
   lidar::StageTimes ignored;
   lidar::voxel::ScanMatches matches;
-  const lidar::voxel::MotionModel standing{{}, 1, false};  // keyframes are deskewed
   const auto align_from = [&](const geometry::Pose3& start, const AlignmentOptions& how,
                               const Effort& effort) {
-    return align(features, submap.map, standing, start, how, effort, alone, matches, ignored);
+    return align(features, submap.map, kStanding, start, how, effort, alone, matches, ignored);
   };
 
   geometry::Pose3 best = starts_centre_lidar.front();
@@ -119,11 +134,7 @@ LoopRegistration register_in(const Submap& submap, const lidar::voxel::SweepSamp
   result.support = support_of(found);
   if (!found.health.registered) return result;
 
-  const Alignment check = align_from(
-      found.T_map_lidar, only_on_surfaces(options.alignment, options.on_surface_m), Effort{});
-  const std::size_t points = features.planar.size() + features.edges.size();
-  const std::size_t on_surfaces = check.health.plane_matches + check.health.line_matches;
-  result.overlap = points == 0 ? 0 : static_cast<double>(on_surfaces) / static_cast<double>(points);
+  result.overlap = overlap_at(found.T_map_lidar, submap, features, options);
   return result;
 }
 

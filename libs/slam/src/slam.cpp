@@ -168,6 +168,7 @@ Loop Slam::verify(const Candidate& candidate, LoopSource source, const Keyframe&
 
   loop.T_candidate_keyframe = found.T_centre_lidar;
   loop.overlap = found.overlap;
+  loop.submap_overlap = submap->own_overlap;
   loop.residual_rms_m = found.health.residual_rms_m;
   loop.weakest_eigenvalue = found.health.observability.eigenvalues[0];
   const LoopChecks& checks = options_.loops;
@@ -188,7 +189,7 @@ LoopVerdict Slam::judge(const Loop& loop, const LoopRegistration& found, bool de
   const LoopChecks& checks = options_.loops;
   if (!found.health.registered) return LoopVerdict::kNotRegistered;
   if (degenerate) return LoopVerdict::kDegenerate;
-  if (loop.overlap < checks.least_overlap) return LoopVerdict::kLittleOverlap;
+  if (loop.overlap < checks.least_overlap * loop.submap_overlap) return LoopVerdict::kLittleOverlap;
   if (loop.residual_rms_m > checks.most_residual_m) return LoopVerdict::kResidual;
   if (loop.odometry_chi2 > checks.most_chi2) return LoopVerdict::kOdometry;
   return LoopVerdict::kAccepted;
@@ -280,8 +281,10 @@ std::shared_ptr<const Submap> Slam::submap_around(std::size_t candidate) {
   for (std::size_t i = first; i <= last; ++i) {
     placed.push_back({keyframes_.at(i), chain_.motion(centre, i)});
   }
-  submaps_.push_back(
-      std::make_shared<const Submap>(make_submap(centre, placed, options_.submap.map)));
+  auto submap = std::make_shared<Submap>(make_submap(centre, placed, options_.submap.map));
+  submap->own_overlap = overlap_at(geometry::Pose3::identity(), *submap,
+                                   keyframes_.at(centre)->features, options_.registration);
+  submaps_.push_back(std::move(submap));
   if (submaps_.size() > kSubmapsKept) submaps_.pop_front();
   return submaps_.back();
 }

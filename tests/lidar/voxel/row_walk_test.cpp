@@ -4,6 +4,7 @@
 #include <functional>
 #include <numbers>
 
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 namespace traverse::lidar::voxel {
@@ -31,7 +32,7 @@ struct MadeRow {
     RowSamples samples;
     find_breaks(row(), {}, seam, breaks);
     sample_surfaces(row(), breaks, {}, 1, samples);
-    sample_edges(row(), breaks, {}, 1, samples);
+    sample_edges(row(), breaks, {}, 1, std::numbers::pi_v<float> / 4, samples);
     return samples;
   }
 };
@@ -125,6 +126,24 @@ TEST(SampleEdges, WhatIsNarrowIsOnePole) {
                              }).walk();
   ASSERT_EQ(samples.edges.size(), 1U);
   EXPECT_NEAR(std::atan2(samples.edges.y[0], samples.edges.x[0]), 0.1, kStepRad);
+}
+
+TEST(SampleEdges, TheAxisOfARoundPoleStaysWhereverItIsSeenFrom) {
+  // The circle of radius 0.15 about (d, 1): the nearer root of |r u - centre| = 0.15.
+  constexpr double kRadius = 0.15;
+  for (const double ahead : {12.0, 6.0, 0.0, -6.0, -12.0}) {
+    const Eigen::Vector2d axis(ahead, 4);
+    const double towards = std::atan2(axis.y(), axis.x());
+    const MadeRow made(200, towards - 0.2, 0.002, [&](double azimuth) {
+      const double along = axis.dot(Eigen::Vector2d(std::cos(azimuth), std::sin(azimuth)));
+      const double root = along * along - axis.squaredNorm() + kRadius * kRadius;
+      return root < 0 ? 30.0 : along - std::sqrt(root);
+    });
+    const RowSamples samples = made.walk();
+    ASSERT_EQ(samples.edges.size(), 1U);
+    EXPECT_NEAR(samples.edges.x[0], axis.x(), 0.02) << "seen " << ahead << " m ahead";
+    EXPECT_NEAR(samples.edges.y[0], axis.y(), 0.02);
+  }
 }
 
 TEST(SampleEdges, AWallThatRecedesAtAGrazingAngleHasNone) {

@@ -177,7 +177,8 @@ void sample_surfaces(const Row& row, const std::vector<std::uint8_t>& breaks,
 }
 
 void sample_edges(const Row& row, const std::vector<std::uint8_t>& breaks,
-                  const SamplingOptions& options, float nearest, RowSamples& samples) {
+                  const SamplingOptions& options, float nearest, float pole_depth,
+                  RowSamples& samples) {
   const float jump = to_float(options.boundary_m);
   const float most = to_float(options.edge_max_range_m);
   const float width = to_float(options.pole_width_m);
@@ -215,7 +216,13 @@ void sample_edges(const Row& row, const std::vector<std::uint8_t>& breaks,
         mz += z[k];
       }
       const float share = 1 / static_cast<float>(count);
-      samples.edges.push_back(mx * share, my * share, mz * share, range[first],
+      mx *= share;
+      my *= share;
+      // Half a step more on either side, as for other ends.
+      const float steps = static_cast<float>(count) / static_cast<float>(count - 1);
+      const float radius = 0.5F * steps * std::sqrt(dx * dx + dy * dy + dz * dz);
+      const float outward = 1 + pole_depth * radius / std::sqrt(mx * mx + my * my);
+      samples.edges.push_back(outward * mx, outward * my, mz * share, range[first],
                               row.source_of((first + last) / 2));
       return;
     }

@@ -131,6 +131,7 @@ SweepSample sample_sweep(const sensors::LidarScan& scan, const sensors::LidarPro
   limited.max_range_m = std::min(options.max_range_m, profile.max_range_m);
   limited.edge_max_range_m = std::min(options.edge_max_range_m, profile.max_range_m);
   const auto nearest = static_cast<float>(profile.min_range_m);
+  const auto pole_depth = static_cast<float>(profile.pole_depth);
   const std::vector<std::size_t> order = bit_reversed_order(rows.count());
   std::vector<ChunkSample> chunks((order.size() + kRowsInChunk - 1) / kRowsInChunk);
   workers.run(chunks.size(), [&](std::size_t c) {
@@ -143,7 +144,7 @@ SweepSample sample_sweep(const sensors::LidarScan& scan, const sensors::LidarPro
       if (row.size < kLeastRow) continue;
       find_breaks(row, limited, seam, breaks);
       sample_surfaces(row, breaks, limited, nearest, chunk.samples);
-      sample_edges(row, breaks, limited, nearest, chunk.samples);
+      sample_edges(row, breaks, limited, nearest, pole_depth, chunk.samples);
     }
     for (SweepPoints* points : {&chunk.samples.surface, &chunk.samples.edges}) {
       correct(profile, *points);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,10 @@ struct LidarProfile {
   /// Added to every point's elevation angle. KITTI's HDL-64E reads 0.205 degrees low: Deschaud,
   /// "IMLS-SLAM", ICRA 2018, section IV.
   double vertical_correction_deg = 0;
+
+  /// How far before the axis of a round pole the mean of its returns lies, in radii. Beams that hit
+  /// it evenly from side to side: the mean of sqrt(1 - u^2) over [-1, 1], pi / 4.
+  double pole_depth = std::numbers::pi / 4;
 
   LidarFiring firing;
   LidarNoise noise;

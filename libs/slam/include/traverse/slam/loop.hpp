@@ -43,6 +43,7 @@ struct Loop {
   /// Of (rotation on the right, translation): as PoseGraph::add_between takes it.
   geometry::Matrix6 covariance = geometry::Matrix6::Zero();
   double overlap = 0;  ///< share of the scan's points that lie on the submap
+  double submap_overlap = 1;  ///< the share that the submap's own centre reaches
   double residual_rms_m = 0;
   double weakest_eigenvalue = 0;   ///< of the information a match
   double odometry_chi2 = 0;        ///< of the difference to odometry's prediction, 6 d.o.f.

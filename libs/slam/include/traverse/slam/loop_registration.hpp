@@ -38,6 +38,11 @@ struct SearchRegion {
 std::vector<geometry::Pose3> starts_around(const geometry::Pose3& guess, const SearchRegion& region,
                                            const LoopRegistrationOptions& options);
 
+/// Share of the points that lie on planes and lines of the submap when the lidar stands there.
+double overlap_at(const geometry::Pose3& T_centre_lidar, const Submap& submap,
+                  const lidar::voxel::SweepSample& features,
+                  const LoopRegistrationOptions& options);
+
 /// Registers the keyframe's features on the planes and lines of the submap as the odometry does:
 /// briefly from every start, then to the end from that under which most points find their place
 /// (as find_initial_velocity does; the lowest cost would favour poses with few matches).

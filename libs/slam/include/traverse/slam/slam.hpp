@@ -23,7 +23,8 @@ namespace traverse::slam {
 
 /// What a verified loop must satisfy.
 struct LoopChecks {
-  double least_overlap = 0.5;       ///< share of the keyframe's points on the submap's surfaces
+  double least_overlap = 0.5;       ///< share of the keyframe's points on the submap's surfaces,
+                                    ///< to the share that the submap's centre reaches
   double most_residual_m = 0.1;     ///< rms of the matches
   double most_chi2 = 22.5;          ///< of the difference to odometry; 99.9 % of 6 d.o.f.
   double odometry_share = 0.003;    ///< of the way, odometry's systematic part of that difference

@@ -17,6 +17,7 @@ struct Submap {
   std::size_t first = 0;   ///< the keyframes it is made of, both included
   std::size_t last = 0;
   lidar::voxel::VoxelMap map;
+  double own_overlap = 1;  ///< share of its centre's points that lie on it: less among leaves
 };
 
 struct SubmapOptions {
