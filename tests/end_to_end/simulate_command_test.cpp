@@ -33,8 +33,8 @@ const std::string kCorridor = "simulate corridor_loop --first 30 --duration 0.5 
 TEST(SimulateCommand, ListsWorldsAndSensors) {
   const ProgramResult result = run_program("simulate --list");
   EXPECT_EQ(result.status, 0) << result.messages;
-  for (const char* name : {"town_loop", "highway", "tunnel", "park", "corridor_loop", "hdl64e",
-                           "vlp16", "os1_64", "os1_128"}) {
+  for (const char* name : {"town_loop", "town_large", "terrace_loop", "highway", "tunnel", "park",
+                           "corridor_loop", "hdl64e", "vlp16", "os1_64", "os1_128"}) {
     EXPECT_THAT(result.output, HasSubstr(name));
   }
 }

@@ -66,7 +66,8 @@ TEST(WorldDescription, AnUnknownWorldListsThoseThereAre) {
 }
 
 TEST(Place, TheSameSeedBuildsTheSamePlace) {
-  for (const char* name : {"town_short", "highway", "tunnel", "park", "corridor_loop"}) {
+  for (const char* name :
+       {"town_short", "terrace_loop", "highway", "tunnel", "park", "corridor_loop"}) {
     const WorldDescription world =
         load_world(find_world(name, TRAVERSE_SHARE_DIR), {"place.density=0.2"});
     const Route route(world.route);
@@ -83,7 +84,8 @@ TEST(Place, TheSameSeedBuildsTheSamePlace) {
 }
 
 TEST(Place, NothingStandsInTheVehiclesWay) {
-  for (const char* name : {"town_loop", "highway", "tunnel", "park", "corridor_loop"}) {
+  for (const char* name :
+       {"town_loop", "town_large", "terrace_loop", "highway", "tunnel", "park", "corridor_loop"}) {
     const WorldDescription world = load_world(find_world(name, TRAVERSE_SHARE_DIR), {});
     const Route route(world.route);
     const Terrain terrain(world.terrain, static_cast<std::uint64_t>(world.seed));
@@ -102,6 +104,34 @@ TEST(Place, NothingStandsInTheVehiclesWay) {
       }
     }
   }
+}
+
+/// Parts of the place's mesh that stand on the stretch of its first street from `from` to `to`,
+/// counted by corners that are higher than cars.
+std::size_t corners_above(const Place& place, double from, double to) {
+  std::size_t count = 0;
+  for (const auto& corner : place.still.corners()) {
+    count += corner.x() >= from && corner.x() < to && std::abs(corner.y()) < 16 && corner.z() > 3;
+  }
+  return count;
+}
+
+TEST(Place, TerracedHousesRepeat) {
+  const auto build = [](const char* terraced) {
+    const WorldDescription world = load_world(find_world("terrace_loop", TRAVERSE_SHARE_DIR),
+                                              {"place.density=0", "terrain.relief_m=0", terraced});
+    return build_place(world.place, Route(world.route), Terrain(world.terrain, 1), 1);
+  };
+  const Place alike = build("place.terraced=true");
+  const Place various = build("place.terraced=false");
+  constexpr double kHouse = 12.01;
+  const std::size_t first = corners_above(alike, 14, 14 + kHouse);
+  EXPECT_GT(first, 500U);
+  EXPECT_NEAR(static_cast<double>(corners_above(alike, 14 + kHouse, 14 + 2 * kHouse)),
+              static_cast<double>(first), 0.02 * static_cast<double>(first));
+  EXPECT_GT(std::abs(static_cast<double>(corners_above(various, 14 + kHouse, 14 + 2 * kHouse)) -
+                     static_cast<double>(corners_above(various, 14, 14 + kHouse))),
+            0.02 * static_cast<double>(first));
 }
 
 }  // namespace

@@ -46,6 +46,7 @@ void bind(config::Binder& b, PlaceSettings& s) {
   b.number("pavement_m", s.pavement_m, Range::between(1.5, 10), "beside a street");
   b.number("height_m", s.height_m, Range::between(2.2, 20), "of a tunnel or corridor");
   b.number("density", s.density, Range::between(0, 3), "of trees, parked cars and furniture");
+  b.flag("terraced", s.terraced, "a town of houses that are all alike, wall to wall");
   b.integer("vehicles", s.vehicles, Range::between(0, 200), "that drive in the opposite lane");
   b.integer("pedestrians", s.pedestrians, Range::between(0, 500), "that walk");
 }

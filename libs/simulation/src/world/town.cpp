@@ -39,6 +39,27 @@ std::vector<Street> side_streets(Site& site, const Street& street) {
   return result;
 }
 
+/// Houses of one kind, wall to wall: places that only furniture and corners tell apart.
+void add_terrace(Site& site, const Street& street, double half_width, double side) {
+  const HousePlan plan;
+  Random alike(1);
+  const Mesh house = make_house(plan, alike);
+  const double front = half_width + site.settings.pavement_m + 0.15;
+  const Eigen::Vector2d size(plan.width, plan.depth);
+  for (double s = 2; s < street.length_m() - 4;) {
+    const Street::Station middle = street.at(s + plan.width / 2);
+    const Eigen::Vector2d centre = middle.beside(side * (front + plan.depth / 2));
+    if (!site.plan.is_free(centre, middle.heading, size)) {
+      s += 3;
+      continue;
+    }
+    site.plan.take(centre, middle.heading, size);
+    const double yaw = middle.heading + (side > 0 ? 0 : std::numbers::pi);
+    site.mesh.add(house, upright(site.on_ground(middle.beside(side * front), kKerb), yaw));
+    s += plan.width + 0.01;
+  }
+}
+
 /// Houses in a row, now and then with a gap closed by a hedge.
 void add_houses(Site& site, const Street& street, double half_width, double side) {
   Random& random = site.random;
@@ -154,7 +175,8 @@ void build_town(Site& site) {
     const auto number = static_cast<unsigned>(i % 32);
     build_street(site, streets[i], number, width(i));
     add_lane_marks(site, streets[i], number);
-    for (const double side : {-1.0, 1.0}) add_houses(site, streets[i], width(i), side);
+    const auto& build = site.settings.terraced ? add_terrace : add_houses;
+    for (const double side : {-1.0, 1.0}) build(site, streets[i], width(i), side);
     for (const double side : {-1.0, 1.0}) {
       // Beside the narrow streets cars park on one side only.
       if (i > 0 && side > 0) continue;

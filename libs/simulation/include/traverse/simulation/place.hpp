@@ -22,6 +22,7 @@ struct PlaceSettings {
   double pavement_m = 2.5;     ///< beside a street
   double height_m = 5.5;       ///< of a tunnel or corridor
   double density = 1;          ///< of trees, parked cars, furniture; 0: none
+  bool terraced = false;       ///< a town's houses are all alike, wall to wall
   int vehicles = 0;            ///< that drive
   int pedestrians = 0;         ///< that walk
 };
