@@ -36,6 +36,7 @@ class LoopInStreet : public ::testing::Test {
     return make_submap(7, placed, {});
   }
   static geometry::Pose3 true_pose() { return truth_[7].inverse() * truth_.back(); }
+  static const Keyframe& keyframe(std::size_t i) { return *keyframes_[i]; }
   static const Keyframe& last() { return *keyframes_.back(); }
 
  private:
@@ -55,6 +56,19 @@ TEST_F(LoopInStreet, FindsThePoseFromAnyStartAroundIt) {
   EXPECT_LT(off.tail<3>().norm(), 0.03);
   EXPECT_LT(off.head<3>().norm(), 0.003);
   EXPECT_GT(found.overlap, 0.6);
+}
+
+TEST_F(LoopInStreet, TheSubmapsOwnCentreTellsWhatOverlapCanBeReached) {
+  const LoopRegistrationOptions options;
+  const Submap around = submap();
+  const double own = overlap_at(geometry::Pose3::identity(), around, keyframe(7).features, options);
+  const double other = overlap_at(true_pose(), around, last().features, options);
+  EXPECT_GT(own, 0.6);
+  EXPECT_LE(other, own);
+  EXPECT_GT(other, 0.7 * own);
+  geometry::Pose3 beside;
+  beside.translation.z() = 0.4;
+  EXPECT_LT(overlap_at(beside, around, keyframe(7).features, options), 0.6 * own);
 }
 
 TEST_F(LoopInStreet, AWrongPlaceOverlapsLess) {

@@ -4,8 +4,9 @@ namespace traverse::slam {
 
 void bind(config::Binder& b, LoopChecks& o) {
   using config::Range;
-  b.number("least_overlap", o.least_overlap, Range::between(0, 1),
-           "share of the keyframe's points on the submap's surfaces");
+  b.number(
+      "least_overlap", o.least_overlap, Range::between(0, 1),
+      "share of the keyframe's points on the submap's surfaces, to that of the submap's centre");
   b.number("most_residual_m", o.most_residual_m, Range::positive(), "rms of the matches");
   b.number("most_chi2", o.most_chi2, Range::positive(),
            "of the difference to odometry, 6 degrees of freedom");

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -104,6 +105,7 @@ class Slam {
                                          std::span<const geometry::Pose3> T_odom_lidar) const;
 
  private:
+  static constexpr std::size_t kNoEdge = std::numeric_limits<std::size_t>::max();
   struct Prediction {
     geometry::Pose3 T_candidate_keyframe;
     geometry::Matrix6 covariance;  ///< of the twist, axes of the keyframe
