@@ -48,9 +48,10 @@ if(TRAVERSE_SANITIZE MATCHES undefined)
   target_compile_options(traverse_test_flags INTERFACE -fno-sanitize=undefined)
 endif()
 
-# Headers that nearly every source includes are precompiled for the sanitizers' builds. The release
-# build does without: there each source must include what it uses.
-option(TRAVERSE_PRECOMPILE "Precompile the headers that nearly every source includes" OFF)
+# Headers that nearly every source includes are precompiled: for the tests always, for libraries in
+# the sanitizers' builds. Their release build does without: there each source must include what it
+# uses.
+option(TRAVERSE_PRECOMPILE "Precompile headers for the libraries too" OFF)
 set(TRAVERSE_COMMON_HEADERS
   <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <optional> <span>
   <string> <string_view> <utility> <vector> <Eigen/Dense> <fmt/format.h>)
@@ -61,9 +62,6 @@ set(TRAVERSE_COMMON_HEADERS
 # FLAGS when it is first asked for: libraries, programs and tests are compiled in different ways.
 function(traverse_precompile target holder)
   cmake_parse_arguments(ARG "" "" "HEADERS;FLAGS" ${ARGN})
-  if(NOT TRAVERSE_PRECOMPILE)
-    return()
-  endif()
   if(NOT TARGET ${holder})
     file(WRITE ${CMAKE_BINARY_DIR}/${holder}.cpp "int main() {}\n")
     get_target_property(kind ${target} TYPE)
@@ -93,7 +91,9 @@ function(traverse_library name)
   target_link_libraries(traverse_${name}
     PUBLIC ${ARG_USES}
     PRIVATE ${ARG_PRIVATELY_USES} traverse_build_flags)
-  traverse_precompile(traverse_${name} precompiled_for_libraries FLAGS traverse_build_flags)
+  if(TRAVERSE_PRECOMPILE)
+    traverse_precompile(traverse_${name} precompiled_for_libraries FLAGS traverse_build_flags)
+  endif()
 endfunction()
 
 # traverse_test(NAME SOURCES ... USES ... [SHARDS n] [TIMEOUT seconds])
@@ -123,7 +123,8 @@ function(traverse_test name)
   math(EXPR last "${ARG_SHARDS} - 1")
   foreach(shard RANGE ${last})
     add_test(NAME ${name}.${shard} COMMAND ${name}_test)
-    set_tests_properties(${name}.${shard} PROPERTIES TIMEOUT ${ARG_TIMEOUT}
+    # COST: the long ones first.
+    set_tests_properties(${name}.${shard} PROPERTIES TIMEOUT ${ARG_TIMEOUT} COST 100
       ENVIRONMENT "GTEST_TOTAL_SHARDS=${ARG_SHARDS};GTEST_SHARD_INDEX=${shard}")
   endforeach()
 endfunction()
