@@ -39,24 +39,40 @@ std::optional<evaluation::Consistency> WaitingForScore::score(
   return scorer.score();
 }
 
+namespace {
+
+mapping::MapKeyframe in_body_frame(const slam::Keyframe& keyframe, const std::string& sensor,
+                                   const geometry::Pose3& T_map_lidar,
+                                   const geometry::Pose3& T_body_lidar) {
+  mapping::MapKeyframe placed;
+  placed.stamp = keyframe.stamp;
+  placed.sensor = sensor;
+  placed.T_map_body = T_map_lidar * T_body_lidar.inverse();
+  placed.p_body_sensor = T_body_lidar.translation;
+  const slam::KeyframePoints& points = keyframe.points;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Eigen::Vector3d p = T_body_lidar * Eigen::Vector3d(points.x[k], points.y[k], points.z[k]);
+    placed.x.push_back(static_cast<float>(p.x()));
+    placed.y.push_back(static_cast<float>(p.y()));
+    placed.z.push_back(static_cast<float>(p.z()));
+  }
+  placed.intensity = points.intensity;
+  placed.time = points.time;
+  placed.ring = points.ring;
+  return placed;
+}
+
+}  // namespace
+
 void rebuild_maps(const SlamMap& slam_map, const std::string& sensor, mapping::VoxelMap& points,
                   mapping::KeyframeMap& keyframes) {
   const geometry::Pose3& T_body_lidar = slam_map.T_body_lidar();
   const slam::KeyframeStore& store = slam_map.slam().keyframes();
   for (std::size_t i = 0; i < store.size(); ++i) {
-    const auto keyframe = store.at(i);
-    slam::KeyframePoints placed = keyframe->points;
-    for (std::size_t k = 0; k < placed.size(); ++k) {
-      const Eigen::Vector3d p =
-          T_body_lidar * Eigen::Vector3d(placed.x[k], placed.y[k], placed.z[k]);
-      placed.x[k] = static_cast<float>(p.x());
-      placed.y[k] = static_cast<float>(p.y());
-      placed.z[k] = static_cast<float>(p.z());
-    }
-    const geometry::Pose3 T_map_body = slam_map.optimised(i) * T_body_lidar.inverse();
-    points.insert(placed.x, placed.y, placed.z, placed.intensity, T_map_body);
-    keyframes.add(keyframe->stamp, sensor, placed.x, placed.y, placed.z, placed.intensity,
-                  T_map_body, T_body_lidar.translation);
+    const mapping::MapKeyframe placed =
+        in_body_frame(*store.at(i), sensor, slam_map.optimised(i), T_body_lidar);
+    points.insert(placed.x, placed.y, placed.z, placed.intensity, placed.T_map_body);
+    keyframes.add(placed);
   }
 }
 
