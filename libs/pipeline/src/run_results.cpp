@@ -47,7 +47,8 @@ RunResults::RunResults(const Estimator& estimator, const dataset::RecordingInfo&
       map_(options.map_voxel_m, options.most_map_points),
       keyframes_(mapping::KeyframeMapOptions{}, folder.path),
       closes_loops_(estimator.slam_map().has_value()),
-      recorder_(folder.path, estimator) {}
+      recorder_(folder.path, estimator),
+      waiting_(folder.path) {}
 
 void RunResults::add(const PoseFrame& frame, const ScanPtr& scan, bool latest) {
   add_row(frame);

@@ -2,8 +2,9 @@
 
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <tsl/robin_set.h>
-#include <utility>
+#include <vector>
 
 #include "traverse/geometry/voxel.hpp"
 #include "traverse/slam/slam.hpp"
@@ -11,8 +12,7 @@
 namespace traverse::pipeline {
 
 void WaitingForScore::add(std::size_t frame, const UsedScan& scan) {
-  Scan kept;
-  kept.frame = frame;
+  std::vector<float> x, y, z;
   // The score reduces again by the same cubes, of which these are the first points too.
   tsl::robin_set<std::uint64_t, geometry::VoxelHash> occupied;
   for (std::size_t i = 0; i < scan.x.size(); ++i) {
@@ -25,17 +25,27 @@ void WaitingForScore::add(std::size_t frame, const UsedScan& scan) {
     if (!occupied.insert(geometry::voxel_key(p, evaluation::consistency::kVoxel_m)).second) {
       continue;
     }
-    kept.x.push_back(scan.x[i]);
-    kept.y.push_back(scan.y[i]);
-    kept.z.push_back(scan.z[i]);
+    x.push_back(scan.x[i]);
+    y.push_back(scan.y[i]);
+    z.push_back(scan.z[i]);
   }
-  scans_.push_back(std::move(kept));
+  const std::size_t points = x.size();
+  x.insert(x.end(), y.begin(), y.end());
+  x.insert(x.end(), z.begin(), z.end());
+  scans_.push_back({frame, points, room_.append(std::as_bytes(std::span(x)))});
 }
 
 std::optional<evaluation::Consistency> WaitingForScore::score(
     const geometry::Trajectory& T_map_body, const std::string& points_are) const {
   evaluation::ConsistencyScorer scorer(points_are);
-  for (const Scan& scan : scans_) scorer.add(scan.x, scan.y, scan.z, T_map_body.pose(scan.frame));
+  std::vector<float> kept;
+  for (const Scan& scan : scans_) {
+    kept.resize(3 * scan.points);
+    room_.read(scan.offset, std::as_writable_bytes(std::span(kept)));
+    const std::span<const float> all(kept);
+    scorer.add(all.first(scan.points), all.subspan(scan.points, scan.points), all.last(scan.points),
+               T_map_body.pose(scan.frame));
+  }
   return scorer.score();
 }
 
