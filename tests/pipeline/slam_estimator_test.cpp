@@ -107,7 +107,7 @@ TEST_F(AShortDrive, GravityIsTakenFromTheImu) {
   const geometry::Trajectory trajectory = corrected(slam, frames);
   const pose_graph::PoseGraph& graph = slam.slam_map()->slam().graph();
   EXPECT_EQ(graph.levels().size(), 2U);
-  EXPECT_THAT(gravity_decision(slam), HasSubstr("2 directions of up by imu"));
+  EXPECT_THAT(gravity_decision(slam), HasSubstr("2 directions of up by imu (sigma"));
   const Eigen::Vector3d up = drive_->drive.pose(0).rotation.transpose() * Eigen::Vector3d::UnitZ();
   const double sigma = graph.levels().front().sigma_rad;
   EXPECT_LT(sigma, 0.02);

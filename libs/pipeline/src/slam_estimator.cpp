@@ -186,10 +186,10 @@ std::string SlamEstimator::gravity_note() const {
   const auto middle = sigmas_deg.begin() + static_cast<std::ptrdiff_t>(sigmas_deg.size() / 2);
   std::nth_element(sigmas_deg.begin(), middle, sigmas_deg.end());
   return fmt::format(
-      "{} directions of up by {}, sigma {:.3f} deg, chi-square {:.2f} a degree of "
-      "freedom, {} rejected; off by {:.3f} deg in common",
+      "{} directions of up by {} (sigma {:.3f} deg, chi-square {:.2f} a degree of freedom, {} "
+      "rejected), off by {:.3f} deg in common; {} more have not the length of gravity",
       levels.size(), imu_, *middle, chi2, rejected,
-      slam_.graph().up_offset().norm() * 180 / std::numbers::pi);
+      slam_.graph().up_offset().norm() * 180 / std::numbers::pi, gravity_->turned_away());
 }
 
 std::vector<Decision> SlamEstimator::decisions() const {

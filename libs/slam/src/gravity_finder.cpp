@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kGravity = 9.81;  // m/s^2; a hundredth more or less from place to place
 constexpr std::size_t kLeastFrames = 5;
+constexpr double kMostFrameGap_s = 0.45;  // how the vehicle turned in between is unknown
 
 /// Seconds of the moments from the middle of their window.
 Eigen::VectorXd times_of(const std::vector<OdometryMoment>& window) {
@@ -111,12 +112,16 @@ std::optional<MeasuredUp> GravityFinder::add(const lidar::Frame& frame) {
     up = up_in_window();
     window_.erase(window_.begin(), window_.end() - 1);  // the next one begins where this one ends
   }
+  const bool goes_on =
+      !window_.empty() &&
+      geometry::seconds_between(window_.back().stamp, frame.stamp) <= kMostFrameGap_s;
+  if (!goes_on) window_.clear();
   // The first frame of a drive is where the map begins; later ones without registration are
   // guesses.
-  if (!frame.health.registered && frame.index > 0) {
-    window_.clear();
-  } else {
+  if (frame.health.registered || frame.index == 0) {
     window_.push_back({frame.stamp, frame.T_map_lidar});
+  } else {
+    window_.clear();
   }
   forget_samples_before(window_.empty() ? frame.stamp : window_.front().stamp);
   return up;
