@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 constexpr const char* kExamples = R"(Examples:
   traverse map RUN -o MAP                        map.ply, map.simplemap, grid.png and grid.yaml
   traverse map RUN -o MAP --set voxel_m=0.2 --attributes
-                                                 coarser; time and keyframe of every point
+                                                 coarser; time, ring and keyframe of every point
   traverse map RUN -o MAP --keep-moving --no-grid
                                                  all points, no occupancy grid
   traverse map other.simplemap -o MAP            from a simple map of another MRPT program
@@ -195,7 +195,7 @@ void add_map(CLI::App& app) {
       },
       "list what --set takes, with its value and its meaning");
   map->add_flag("--attributes", arguments->attributes,
-                "time and keyframe of each point beside its intensity");
+                "time, ring and keyframe of each point beside its intensity");
   map->add_flag("--keep-moving", arguments->keep_moving, "leave moving objects in");
   map->add_flag("--no-grid", arguments->no_grid, "no occupancy grid");
   map->footer(kExamples);

@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <filesystem>
+#include <set>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -43,6 +46,28 @@ class MapCommand : public ::testing::Test {
 
 testing::TemporaryFolder* MapCommand::folder_ = nullptr;
 
+/// Points of one keyframe were seen by all sixteen rings within a sweep of a tenth of a second.
+void expect_point_attributes(const dataset::PointCloud& cloud) {
+  for (const char* field : {"time", "ring", "keyframe"}) {
+    ASSERT_NE(cloud.find(field), nullptr) << field;
+  }
+  const std::vector<double> time = dataset::to_doubles(*cloud.find("time"));
+  const std::vector<double> ring = dataset::to_doubles(*cloud.find("ring"));
+  const std::vector<double> keyframe = dataset::to_doubles(*cloud.find("keyframe"));
+  std::set<double> rings;
+  double earliest = time.front();
+  double latest = time.front();
+  for (std::size_t i = 0; i < time.size() && keyframe[i] == keyframe.front(); ++i) {
+    rings.insert(ring[i]);
+    earliest = std::min(earliest, time[i]);
+    latest = std::max(latest, time[i]);
+  }
+  EXPECT_EQ(rings.size(), 16U);
+  EXPECT_EQ(*rings.rbegin(), 15);
+  EXPECT_GT(latest - earliest, 0.05);
+  EXPECT_LT(latest - earliest, 0.11);
+}
+
 TEST_F(MapCommand, MakesPointsAndGridOfARun) {
   const ProgramResult result =
       run_program("map " + path("run1") + " --attributes -o " + path("map"));
@@ -53,20 +78,21 @@ TEST_F(MapCommand, MakesPointsAndGridOfARun) {
   }
   const auto cloud = dataset::read_point_cloud(path("map") + "/map.ply");
   EXPECT_GT(cloud.size(), 1000U);
-  for (const char* field : {"x", "y", "z", "intensity", "time", "keyframe"}) {
-    EXPECT_NE(cloud.find(field), nullptr) << field;
-  }
-  const ProgramResult again =
-      run_program("map " + path("map/map.simplemap") + " --no-grid -o " + path("again"));
+  EXPECT_NE(cloud.find("intensity"), nullptr);
+  expect_point_attributes(cloud);
+  const ProgramResult again = run_program("map " + path("map/map.simplemap") +
+                                          " --attributes --no-grid -o " + path("again"));
   EXPECT_EQ(again.status, 0) << again.messages;
   EXPECT_FALSE(fs::exists(path("again/grid.png")));
+  expect_point_attributes(dataset::read_point_cloud(path("again") + "/map.ply"));
 }
 
 TEST_F(MapCommand, MergesRunsThatOverlap) {
   const ProgramResult result =
       run_program("map " + path("run1") + " " + path("run2") +
-                  " --set grid.cell_m=0.2 --set merge.samples=8 -o " + path("merged"));
+                  " --attributes --set grid.cell_m=0.2 --set merge.samples=8 -o " + path("merged"));
   ASSERT_EQ(result.status, 0) << result.messages;
+  expect_point_attributes(dataset::read_point_cloud(path("merged") + "/map.ply"));
   EXPECT_THAT(result.output, HasSubstr("2 runs brought together"));
 }
 

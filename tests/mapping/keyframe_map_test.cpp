@@ -20,20 +20,28 @@ namespace traverse::mapping {
 namespace {
 
 /// A map of two keyframes with three points each.
-KeyframeMap made_map(const geometry::Pose3& T_map_first, const geometry::Pose3& T_map_second) {
-  KeyframeMap map(KeyframeMapOptions{});
-  const std::vector<float> x{1, 2, 3};
-  const std::vector<float> intensity{0.1F, 0.2F, 0.3F};
-  map.add(geometry::Stamp::from_seconds(1.3e9), "lidar", x, x, x, intensity, T_map_first);
-  map.add(geometry::Stamp::from_seconds(1.3e9 + 1), "lidar", x, x, x, intensity, T_map_second);
+KeyframeMap made_map(const std::filesystem::path& scratch, const geometry::Pose3& T_map_first,
+                     const geometry::Pose3& T_map_second) {
+  KeyframeMap map(KeyframeMapOptions{}, scratch);
+  MapKeyframe keyframe;
+  keyframe.stamp = geometry::Stamp::from_seconds(1.3e9);
+  keyframe.sensor = "lidar";
+  keyframe.T_map_body = T_map_first;
+  keyframe.x = keyframe.y = keyframe.z = {1, 2, 3};
+  keyframe.intensity = {0.1F, 0.2F, 0.3F};
+  map.add(keyframe);
+  keyframe.stamp = geometry::Stamp::from_seconds(1.3e9 + 1);
+  keyframe.T_map_body = T_map_second;
+  map.add(keyframe);
   return map;
 }
 
 TEST(KeyframeMap, WantsAKeyframeAfterMotionOrRotation) {
-  KeyframeMap map(KeyframeMapOptions{});
+  const testing::TemporaryFolder folder;
+  KeyframeMap map(KeyframeMapOptions{}, folder.path());
   geometry::Pose3 pose;
   EXPECT_TRUE(map.wants(pose));
-  map.add({}, "lidar", {}, {}, {}, {}, pose);
+  map.add(MapKeyframe{});
   pose.translation.x() = 1.9;
   EXPECT_FALSE(map.wants(pose));
   pose.translation.x() = 2.1;
@@ -47,7 +55,7 @@ TEST(KeyframeMap, IsOpenedByMrptWithPosesAndPoints) {
   const testing::TemporaryFolder folder;
   testing::RandomMotion random(1);
   const geometry::Pose3 T_map_second = random.pose(1, 10);
-  made_map(geometry::Pose3(), T_map_second).write(folder / "map.simplemap");
+  made_map(folder.path(), geometry::Pose3(), T_map_second).write(folder / "map.simplemap");
 
   mrpt::maps::CSimpleMap loaded;
   ASSERT_TRUE(loaded.loadFromFile((folder / "map.simplemap").string()));
@@ -66,16 +74,16 @@ TEST(KeyframeMap, IsOpenedByMrptWithPosesAndPoints) {
 
 TEST(KeyframeMap, AFullDiskIsAnErrorAndLeavesNothing) {
   const testing::TemporaryFolder folder;
-  KeyframeMap map(KeyframeMapOptions{});
+  KeyframeMap map(KeyframeMapOptions{}, folder.path());
   testing::RandomMotion random(2);
-  std::vector<float> x, y, z;
+  MapKeyframe keyframe;
   for (int i = 0; i < 20000; ++i) {
     const Eigen::Vector3f p = random.vector(50).cast<float>();
-    x.push_back(p.x());
-    y.push_back(p.y());
-    z.push_back(p.z());
+    keyframe.x.push_back(p.x());
+    keyframe.y.push_back(p.y());
+    keyframe.z.push_back(p.z());
   }
-  map.add({}, "lidar", x, y, z, {}, geometry::Pose3());
+  map.add(keyframe);
   {
     const testing::FileSizeLimit limit(4096);
     EXPECT_THROW(map.write(folder / "map.simplemap"), files::OutputError);

@@ -23,28 +23,36 @@ namespace {
 TEST(ReadSimpleMap, ReadsBackWhatAKeyframeMapWrote) {
   const testing::TemporaryFolder folder;
   testing::RandomMotion random(1);
-  const geometry::Pose3 T_map_body = random.pose(1, 100);
-  const std::vector<float> x{1, 2, 3}, y{-4, 5, 6}, z{0.5F, 0.25F, 8};
-  const std::vector<float> intensity{0.1F, 0.2F, 0.3F};
-  const Eigen::Vector3d p_body_sensor(0.5, 0, 1.75);
-  KeyframeMap map(KeyframeMapOptions{});
-  map.add(geometry::Stamp::from_seconds(1.3e9), "top", x, y, z, intensity, T_map_body,
-          p_body_sensor);
+  MapKeyframe made;
+  made.stamp = geometry::Stamp::from_seconds(1.3e9);
+  made.sensor = "top";
+  made.T_map_body = random.pose(1, 100);
+  made.p_body_sensor = {0.5, 0, 1.75};
+  made.x = {1, 2, 3};
+  made.y = {-4, 5, 6};
+  made.z = {0.5F, 0.25F, 8};
+  made.intensity = {0.1F, 0.2F, 0.3F};
+  made.time = {0, 0.05F, -0.02F};
+  made.ring = {0, 7, 63};
+  KeyframeMap map(KeyframeMapOptions{}, folder.path());
+  map.add(made);
   map.write(folder / "map.simplemap");
 
   const auto keyframes = read_simple_map(folder / "map.simplemap");
   ASSERT_EQ(keyframes.size(), 1U);
   const MapKeyframe& read = keyframes[0];
-  EXPECT_EQ(read.stamp, geometry::Stamp::from_seconds(1.3e9));
+  EXPECT_EQ(read.stamp, made.stamp);
   EXPECT_EQ(read.sensor, "top");
-  EXPECT_LT((read.T_map_body.matrix() - T_map_body.matrix()).norm(), 1e-12);
-  EXPECT_EQ(read.p_body_sensor, p_body_sensor);
+  EXPECT_LT((read.T_map_body.matrix() - made.T_map_body.matrix()).norm(), 1e-12);
+  EXPECT_EQ(read.p_body_sensor, made.p_body_sensor);
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_NEAR(read.x[i], x[i], 1e-5);
-    EXPECT_NEAR(read.y[i], y[i], 1e-5);
-    EXPECT_NEAR(read.z[i], z[i], 1e-5);
-    EXPECT_EQ(read.intensity[i], intensity[i]);
+    EXPECT_NEAR(read.x[i], made.x[i], 1e-5);
+    EXPECT_NEAR(read.y[i], made.y[i], 1e-5);
+    EXPECT_NEAR(read.z[i], made.z[i], 1e-5);
   }
+  EXPECT_EQ(read.intensity, made.intensity);
+  EXPECT_EQ(read.time, made.time);
+  EXPECT_EQ(read.ring, made.ring);
 }
 
 TEST(ReadSimpleMap, TakesWhatOtherProgramsOfMrptPutIntoOne) {
@@ -103,8 +111,11 @@ TEST(ReadSimpleMap, SaysWhatAFileIsNot) {
 
 TEST(MapKeyframe, KeepsTheChosenPoints) {
   MapKeyframe keyframe;
-  keyframe.x = keyframe.y = keyframe.z = keyframe.intensity = {1, 2, 3};
+  keyframe.x = keyframe.y = keyframe.z = keyframe.intensity = keyframe.time = {1, 2, 3};
+  keyframe.ring = {1, 2, 3};
   keyframe.keep_only({1, 0, 1});
+  EXPECT_EQ(keyframe.time, (std::vector<float>{1, 3}));
+  EXPECT_EQ(keyframe.ring, (std::vector<std::uint16_t>{1, 3}));
   EXPECT_EQ(keyframe.x, (std::vector<float>{1, 3}));
   EXPECT_EQ(keyframe.intensity, (std::vector<float>{1, 3}));
 }

@@ -232,6 +232,62 @@ TEST(PoseGraph, GravityLevelsTheWayAndTellsHowTheMapIsTilted) {
   EXPECT_LT(tilt(graph), 2 * sigma);
 }
 
+/// Laps, in which the body looks every way: what its instrument is off by does not turn with up.
+TEST(PoseGraph, WhatAllUpsAreOffByIsFound) {
+  MadeDriveOptions steady;
+  steady.keyframes_a_lap = 60;
+  steady.step_sigma_rad = 5e-5;
+  const MadeDrive drive = testing::made_drive(steady, 9);
+  const Eigen::Vector3d up = Eigen::Vector3d(0.05, -0.08, 1).normalized();
+  const Eigen::Vector3d offset(0.006, -0.004, 0);
+  const double sigma = 0.001;
+  const auto levelled = [&](double offset_deg) {
+    GraphOptions options;
+    options.up_offset_deg = offset_deg;
+    PoseGraph graph = testing::odometry_graph(drive, options);
+    Noise noise(3);
+    for (std::size_t k = 0; k < drive.truth.size(); ++k) {
+      const Eigen::Vector3d seen = drive.truth[k].rotation.transpose() * up + offset;
+      graph.add_gravity(k, seen + noise.normal(sigma), sigma);
+    }
+    EXPECT_TRUE(graph.optimise().converged);
+    return graph;
+  };
+  const auto tilt = [&](const PoseGraph& graph) {  // of the last pose against the first
+    const Eigen::Vector3d seen = graph.pose(drive.truth.size() - 1).rotation.transpose() * up;
+    return std::acos(seen.dot(drive.truth.back().rotation.transpose() * up));
+  };
+  const PoseGraph graph = levelled(0.5);
+  EXPECT_LT((graph.up_offset() - offset).head<2>().norm(), sigma);
+  EXPECT_LT(std::acos(graph.up_map()->dot(up)), 2 * sigma);
+  EXPECT_LT(tilt(graph), 2 * sigma);
+  double chi2 = 0;
+  for (const Level& level : graph.levels()) chi2 += level.chi2;
+  EXPECT_NEAR(chi2 / (2 * static_cast<double>(graph.levels().size())), 1, 0.2);
+
+  EXPECT_EQ(levelled(0).up_offset(), Eigen::Vector3d::Zero());
+  EXPECT_GT(std::acos(levelled(0).up_map()->dot(up)), 3 * sigma);
+}
+
+TEST(PoseGraph, AnUpThatIsFarOffIsRejected) {
+  const MadeDrive drive = short_drive(9);
+  const auto levelled = [&](bool with_false_one) {
+    PoseGraph graph = testing::odometry_graph(drive);
+    for (std::size_t k = 0; k < drive.truth.size(); ++k) {
+      graph.add_gravity(k, drive.truth[k].rotation.transpose() * Eigen::Vector3d::UnitZ(), 0.002);
+    }
+    if (with_false_one) graph.add_gravity(40, Eigen::Vector3d(0.3, 0.2, 1), 0.002);
+    EXPECT_EQ(graph.optimise().rejected_levels, with_false_one ? 1U : 0U);
+    return graph;
+  };
+  const PoseGraph clean = levelled(false);
+  const PoseGraph disturbed = levelled(true);
+  EXPECT_TRUE(disturbed.levels().back().is_rejected());
+  for (std::size_t k = 0; k < drive.truth.size(); ++k) {
+    EXPECT_LT(geometry::log_se3(clean.pose(k).inverse() * disturbed.pose(k)).norm(), 0.01);
+  }
+}
+
 TEST(PoseGraph, SaysWhatCannotBeUsed) {
   PoseGraph graph;
   graph.add_node(7, {});

@@ -46,10 +46,13 @@ TEST(GravityResidual, HasTheSizeOfTheAngleAndDoesNotKnowTheHeading) {
   const double angle = 0.01;
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d seen = kI.rotation.transpose() * geometry::exp_so3({angle, 0, 0}) * up;
-  EXPECT_NEAR(gravity_residual(seen, kI, up).norm(), angle, 1e-6);
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  EXPECT_NEAR(gravity_residual(seen, kI, up, none).norm(), angle, 1e-6);
   const Pose3 turned{geometry::exp_so3({0, 0, 0.7}) * kI.rotation, kI.translation};
   const Eigen::Vector3d level = kI.rotation.transpose() * up;
-  EXPECT_LT(gravity_residual(level, turned, up).norm(), 1e-14);
+  EXPECT_LT(gravity_residual(level, turned, up, none).norm(), 1e-14);
+  const Eigen::Vector3d offset(0.01, -0.02, 0.005);
+  EXPECT_LT(gravity_residual(level + offset, turned, up, offset).norm(), 1e-14);
 }
 
 }  // namespace

@@ -192,22 +192,35 @@ TEST(ScanMatches, ResidualsAreLinesOfTheStatedLength) {
   for (int i = 0; i < 200; ++i) x.push_back(0.1F * static_cast<float>(i));
   const std::vector<float> none(200, 0);
   const MapPoints points{x, x, none, Eigen::Vector3d::Zero()};
-  const Drawing drawing = scan_matches({points, points, offset, none, none}, drive, kCaption, {});
+  const std::span<const float> few = std::span(x).first(30);
+  const Matches on_planes{points, offset, none, none};
+  const Matches on_lines{{few, few, std::span(none).first(30), Eigen::Vector3d::Zero()},
+                         std::span(none).first(30),
+                         std::span(offset).first(30),
+                         std::span(none).first(30)};
+  const Drawing drawing = scan_matches({points, on_lines, on_planes}, drive, kCaption, {});
   const auto lines = all_of_kind<Polyline>(drawing);
-  const auto residuals = std::find_if(
-      lines.begin(), lines.end(), [](const Polyline* line) { return line->points.size() == 600; });
+  const auto of_length = [&](std::size_t points_of_line) {
+    return std::find_if(lines.begin(), lines.end(), [&](const Polyline* line) {
+      return line->points.size() == points_of_line;
+    });
+  };
+  const auto residuals = of_length(600);
   ASSERT_NE(residuals, lines.end());
+  ASSERT_NE(of_length(90), lines.end());
+  EXPECT_NE((*residuals)->colour, (*of_length(90))->colour);
   const auto& at = (*residuals)->points;
   const double pixels_a_metre = (at[3].x - at[0].x) / 0.1;
   const double times = (at[1].x - at[0].x) / (0.05 * pixels_a_metre);
   EXPECT_NEAR(times, std::round(times), 1e-3);
   EXPECT_TRUE(says(drawing, "residual, " + std::to_string(std::lround(times)) + " times as long"));
-  EXPECT_TRUE(says(drawing, "200 matches"));
+  EXPECT_TRUE(says(drawing, "200 on planes"));
+  EXPECT_TRUE(says(drawing, "30 on lines"));
   expect_readable(drawing);
 
-  EXPECT_TRUE(says(scan_matches({points, {}, {}, {}, {}}, drive, kCaption, {}), "did not tell"));
+  EXPECT_TRUE(says(scan_matches({points, {}, {}}, drive, kCaption, {}), "did not tell"));
   EXPECT_NO_THROW(scan_matches({}, geometry::Trajectory::unstamped({}), {}, {}));
-  EXPECT_THROW(scan_matches({points, points, offset, none, {}}, drive, kCaption, {}),
+  EXPECT_THROW(scan_matches({points, {points, offset, none, {}}, {}}, drive, kCaption, {}),
                std::invalid_argument);
 }
 

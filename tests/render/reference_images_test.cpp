@@ -102,18 +102,22 @@ TEST(ReferenceImages, MapWithNorth) {
 
 TEST(ReferenceImages, ScanMatches) {
   const Street street;
-  std::vector<float> x, y, z, pulled, none;
+  struct Kind {
+    std::vector<float> x, y, z, pulled, none;
+    Matches matches() const { return {{x, y, z, Eigen::Vector3d::Zero()}, none, pulled, none}; }
+  };
+  Kind on_lines, on_planes;
   for (std::size_t i = 0; i < street.x.size(); i += 20) {
-    x.push_back(street.x[i]);
-    y.push_back(street.y[i]);
-    z.push_back(street.z[i]);
-    pulled.push_back(0.1F + 0.05F * std::sin(street.x[i]));  // to the left: the pose is off
-    none.push_back(0);
+    Kind& kind = i % 100 == 0 ? on_lines : on_planes;
+    kind.x.push_back(street.x[i]);
+    kind.y.push_back(street.y[i]);
+    kind.z.push_back(street.z[i]);
+    kind.pulled.push_back(0.1F + 0.05F * std::sin(street.x[i]));  // to the left: the pose is off
+    kind.none.push_back(0);
   }
-  const MapPoints matches{x, y, z, Eigen::Vector3d::Zero()};
-  compare_with_reference(
-      scan_matches({street.points(), matches, none, pulled, none}, street.way, kCaption, small()),
-      "scan-matches");
+  compare_with_reference(scan_matches({street.points(), on_lines.matches(), on_planes.matches()},
+                                      street.way, kCaption, small()),
+                         "scan-matches");
 }
 
 TEST(ReferenceImages, TimeSeriesAndViolins) {

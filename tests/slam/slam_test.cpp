@@ -1,5 +1,7 @@
 #include "traverse/slam/slam.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "slam/made_drive.hpp"
@@ -107,6 +109,32 @@ TEST(Slam, WithoutLoopsOdometryStays) {
   for (std::size_t k = 0; k < poses.size(); ++k) {
     EXPECT_EQ(poses[k].matrix(), drive.frames()[k].frame.T_map_lidar.matrix());
   }
+}
+
+/// Odometry that nods a little more at every frame, and gravity that tells.
+TEST(Slam, GravityUndoesTheTiltOfOdometry) {
+  geometry::Twist nod = geometry::Twist::Zero();
+  nod[1] = 0.001;
+  MadeDrive drive(nod);
+  drive.pass(4, simulation::Drive{});
+  const auto up_lidar = [](const MadeFrame& made) {
+    return Eigen::Vector3d(made.T_truth.rotation.transpose() * Eigen::Vector3d::UnitZ());
+  };
+  Slam slam(options(), drive.profile());
+  for (const MadeFrame& made : drive.frames()) {
+    if (!slam.wants(made.frame)) continue;
+    slam.add(made.frame, made.scan, testing::points_of(made, drive.profile()), true);
+    slam.add_gravity(up_lidar(made), 0.001);
+  }
+  slam.finish();
+  ASSERT_TRUE(slam.is_corrected());
+  const Eigen::Vector3d up_map = up_lidar(drive.frames().front());
+  const MadeFrame& last = drive.frames().back();
+  const auto tilt = [&](const geometry::Pose3& T_map_lidar) {
+    return std::acos(std::min(1.0, up_lidar(last).dot(T_map_lidar.rotation.transpose() * up_map)));
+  };
+  EXPECT_GT(tilt(last.frame.T_map_lidar), 0.015);
+  EXPECT_LT(tilt(corrected(slam, drive).back()), 0.001);
 }
 
 /// Two streets that look exactly the same, 200 m apart by odometry.

@@ -1,36 +1,107 @@
 #include "traverse/mapping/keyframe_map.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <stdexcept>
+#include <string>
 #include <tsl/robin_set.h>
+#include <vector>
 
 #include <Eigen/Dense>
 #include <mrpt/maps/CPointsMapXYZI.h>
-#include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
-#include "traverse/files/atomic_file.hpp"
-#include "traverse/files/input_error.hpp"
+#include "traverse/files/scratch_file.hpp"
 #include "traverse/geometry/so3.hpp"
 #include "traverse/geometry/voxel.hpp"
 
 #include "mrpt_values.hpp"
+#include "point_attributes.hpp"
+#include "simple_map_file.hpp"
 
 namespace traverse::mapping {
 
-struct KeyframeMap::Content {
-  mrpt::maps::CSimpleMap map;
+namespace {
+
+/// What an archive writes, in memory.
+struct Bytes {
+  std::vector<std::byte> bytes;
+
+  std::size_t Write(const void* from, std::size_t count) {
+    const auto* first = static_cast<const std::byte*>(from);
+    bytes.insert(bytes.end(), first, first + count);
+    return count;
+  }
+  static std::size_t Read(void*, std::size_t) { throw std::logic_error("only written"); }
+  static std::string getStreamDescription() { return "bytes"; }
 };
 
-KeyframeMap::KeyframeMap(const KeyframeMapOptions& options)
-    : options_(options), content_(std::make_unique<Content>()) {}
+/// Of each cube the first of the keyframe's points.
+std::vector<std::size_t> thinned(const MapKeyframe& keyframe, double voxel_m) {
+  std::vector<std::size_t> kept;
+  tsl::robin_set<std::uint64_t, geometry::VoxelHash> occupied;
+  for (std::size_t i = 0; i < keyframe.size(); ++i) {
+    const Eigen::Vector3d p = keyframe.p_body(i);
+    if (occupied.insert(geometry::voxel_key(p, voxel_m)).second) kept.push_back(i);
+  }
+  return kept;
+}
+
+dataset::PointAttributes attributes_of(const MapKeyframe& keyframe,
+                                       const std::vector<std::size_t>& kept) {
+  dataset::PointAttributes attributes;
+  for (const std::size_t i : kept) {
+    if (!keyframe.time.empty()) attributes.time.push_back(keyframe.time[i]);
+    if (!keyframe.ring.empty()) attributes.ring.push_back(keyframe.ring[i]);
+  }
+  return attributes;
+}
+
+mrpt::obs::CObservationPointCloud::Ptr cloud_of(const MapKeyframe& keyframe,
+                                                const std::vector<std::size_t>& kept) {
+  auto points = mrpt::maps::CPointsMapXYZI::Create();
+  points->reserve(kept.size());
+  for (const std::size_t i : kept) {
+    const Eigen::Vector3f p = (keyframe.p_body(i) - keyframe.p_body_sensor).cast<float>();
+    points->insertPointFast(p.x(), p.y(), p.z());
+    if (!keyframe.intensity.empty()) {
+      points->setPointIntensity(points->size() - 1, keyframe.intensity[i]);
+    }
+  }
+  points->mark_as_modified();
+  auto observation = mrpt::obs::CObservationPointCloud::Create();
+  observation->timestamp = dataset::to_mrpt(keyframe.stamp);
+  observation->sensorLabel = keyframe.sensor;
+  observation->sensorPose =
+      dataset::to_mrpt(geometry::Pose3{Eigen::Matrix3d::Identity(), keyframe.p_body_sensor});
+  observation->pointcloud = points;
+  return observation;
+}
+
+}  // namespace
+
+struct KeyframeMap::Content {
+  struct Place {
+    std::uint64_t offset = 0;
+    std::size_t bytes = 0;
+  };
+
+  explicit Content(const std::filesystem::path& folder) : scratch(folder) {}
+
+  files::ScratchFile scratch;
+  std::vector<Place> places;  ///< of the keyframes, as an archive writes them
+};
+
+KeyframeMap::KeyframeMap(const KeyframeMapOptions& options, const std::filesystem::path& scratch)
+    : options_(options), content_(std::make_unique<Content>(scratch)) {}
 KeyframeMap::KeyframeMap(KeyframeMap&&) noexcept = default;
 KeyframeMap& KeyframeMap::operator=(KeyframeMap&&) noexcept = default;
 KeyframeMap::~KeyframeMap() = default;
 
-std::size_t KeyframeMap::size() const { return content_->map.size(); }
+std::size_t KeyframeMap::size() const { return content_->places.size(); }
 
 bool KeyframeMap::wants(const geometry::Pose3& T_map_body) const {
   if (size() == 0) return true;
@@ -39,49 +110,27 @@ bool KeyframeMap::wants(const geometry::Pose3& T_map_body) const {
          geometry::angle_of(motion.rotation) >= options_.spacing_rad;
 }
 
-void KeyframeMap::add(geometry::Stamp stamp, const std::string& sensor, std::span<const float> x,
-                      std::span<const float> y, std::span<const float> z,
-                      std::span<const float> intensity, const geometry::Pose3& T_map_body,
-                      const Eigen::Vector3d& p_body_sensor) {
-  auto points = mrpt::maps::CPointsMapXYZI::Create();
-  tsl::robin_set<std::uint64_t, geometry::VoxelHash> occupied;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    if (!occupied.insert(geometry::voxel_key({x[i], y[i], z[i]}, options_.voxel_m)).second)
-      continue;
-    const Eigen::Vector3d p = Eigen::Vector3d(x[i], y[i], z[i]) - p_body_sensor;
-    points->insertPointFast(static_cast<float>(p.x()), static_cast<float>(p.y()),
-                            static_cast<float>(p.z()));
-    if (!intensity.empty()) points->setPointIntensity(points->size() - 1, intensity[i]);
-  }
-  points->mark_as_modified();
-
-  auto observation = mrpt::obs::CObservationPointCloud::Create();
-  observation->timestamp = dataset::to_mrpt(stamp);
-  observation->sensorLabel = sensor;
-  observation->sensorPose =
-      dataset::to_mrpt(geometry::Pose3{Eigen::Matrix3d::Identity(), p_body_sensor});
-  observation->pointcloud = points;
+void KeyframeMap::add(const MapKeyframe& keyframe) {
+  const std::vector<std::size_t> kept = thinned(keyframe, options_.voxel_m);
   auto frame = mrpt::obs::CSensoryFrame::Create();
-  frame->insert(observation);
-  const mrpt::poses::CPose3DPDF::Ptr pose =
-      mrpt::poses::CPose3DPDFGaussian::Create(dataset::to_mrpt(T_map_body));
-  content_->map.insert(pose, frame);
-  T_map_last_ = T_map_body;
+  const dataset::PointAttributes attributes = attributes_of(keyframe, kept);
+  if (!attributes.empty()) frame->insert(dataset::to_observation(attributes, keyframe.stamp));
+  frame->insert(cloud_of(keyframe, kept));
+
+  Bytes written;
+  auto archive = mrpt::serialization::archiveFrom(written);
+  archive << mrpt::poses::CPose3DPDFGaussian(dataset::to_mrpt(keyframe.T_map_body)) << *frame;
+  content_->places.push_back({content_->scratch.append(written.bytes), written.bytes.size()});
+  T_map_last_ = keyframe.T_map_body;
 }
 
 void KeyframeMap::write(const std::filesystem::path& file) const {
-  files::AtomicFile target(file);
-  target.stream().flush();
-  // MRPT opens the file itself; its stream does not tell a full disk, so the size is checked by
-  // reading the map back.
-  if (!content_->map.saveToFile(target.temporary_path().string())) {
-    throw files::OutputError(file, "MRPT could not write the simple map");
-  }
-  mrpt::maps::CSimpleMap written;
-  if (!written.loadFromFile(target.temporary_path().string()) || written.size() != size()) {
-    throw files::OutputError(file, "not every keyframe was written (is the disk full?)");
-  }
-  target.commit();
+  std::vector<std::byte> bytes;
+  dataset::write_simple_map(file, size(), [&](auto& archive, std::size_t i) {
+    bytes.resize(content_->places[i].bytes);
+    content_->scratch.read(content_->places[i].offset, bytes);
+    archive.WriteBuffer(bytes.data(), bytes.size());
+  });
 }
 
 }  // namespace traverse::mapping

@@ -8,14 +8,11 @@ namespace traverse::mapping {
 
 namespace {
 
-KeyframeMap simple_map_of(const std::vector<MapKeyframe>& keyframes) {
+KeyframeMap simple_map_of(const std::vector<MapKeyframe>& keyframes, const MapFolder& folder) {
   KeyframeMapOptions as_they_are;
   as_they_are.voxel_m = 0.01;  // thinned when they were made
-  KeyframeMap map(as_they_are);
-  for (const MapKeyframe& keyframe : keyframes) {
-    map.add(keyframe.stamp, keyframe.sensor, keyframe.x, keyframe.y, keyframe.z, keyframe.intensity,
-            keyframe.T_map_body, keyframe.p_body_sensor);
-  }
+  KeyframeMap map(as_they_are, folder.path);
+  for (const MapKeyframe& keyframe : keyframes) map.add(keyframe);
   return map;
 }
 
@@ -24,7 +21,7 @@ KeyframeMap simple_map_of(const std::vector<MapKeyframe>& keyframes) {
 void bind(config::Binder& b, MapOptions& o) {
   b.number("voxel_m", o.voxel_m, config::Range::between(0.005, 10),
            "of the points in a cube of this edge one is kept");
-  b.flag("attributes", o.attributes, "time and keyframe of each point beside its intensity");
+  b.flag("attributes", o.attributes, "time, ring and keyframe of each point beside its intensity");
   b.flag("remove_moving", o.remove_moving, "leave out what rays of other keyframes pass through");
   b.group("free_space", "what counts as moving", [&](config::Binder& g) { bind(g, o.free_space); });
   b.flag("with_grid", o.with_grid, "an occupancy grid beside the points");
@@ -49,7 +46,7 @@ MapSummary write_map(const MapFolder& folder, std::vector<MapKeyframe> keyframes
   summary.points = points.size();
   write_ply(folder.points(), points, options.attributes);
   tell("points", 0.5);
-  simple_map_of(keyframes).write(folder.simple_map());
+  simple_map_of(keyframes, folder).write(folder.simple_map());
   if (origin) write_map_origin(folder.origin(), *origin);
   tell("points", 1);
   if (options.with_grid) {

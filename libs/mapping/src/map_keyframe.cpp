@@ -1,11 +1,10 @@
 #include "traverse/mapping/map_keyframe.hpp"
 
-#include <exception>
+#include <utility>
 
 #include <Eigen/Dense>
 #include <fmt/core.h>
 #include <mrpt/maps/CPointsMapXYZI.h>
-#include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DPDF.h>
@@ -13,6 +12,8 @@
 #include "traverse/files/input_error.hpp"
 
 #include "mrpt_values.hpp"
+#include "point_attributes.hpp"
+#include "simple_map_file.hpp"
 
 namespace traverse::mapping {
 
@@ -54,6 +55,7 @@ void append(const mrpt::obs::CObservation& observation, MapKeyframe& keyframe) {
 bool is_part_of_map(const mrpt::obs::CSensoryFrame& frame,
                     const mrpt::obs::CObservation& observation) {
   static const std::string kMapPoints = "map points";
+  if (dataset::holds_attributes(observation)) return false;
   return observation.sensorLabel == kMapPoints ||
          frame.getObservationBySensorLabel(kMapPoints) == nullptr;
 }
@@ -61,43 +63,35 @@ bool is_part_of_map(const mrpt::obs::CSensoryFrame& frame,
 }  // namespace
 
 void MapKeyframe::keep_only(const std::vector<char>& keep) {
-  const auto reduce = [&](std::vector<float>& values) {
+  const auto reduce = [&](auto& values) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (keep[i] != 0) values[kept++] = values[i];
     }
     values.resize(kept);
   };
-  for (auto* values : {&x, &y, &z, &intensity}) reduce(*values);
+  for (auto* values : {&x, &y, &z, &intensity, &time}) reduce(*values);
+  reduce(ring);
 }
 
 std::vector<MapKeyframe> read_simple_map(const std::filesystem::path& file) {
-  const auto error = [&](std::string found) {
-    return files::InputError(file, files::Place::whole_file(), "a simple map of MRPT with points",
-                             std::move(found));
-  };
-  mrpt::maps::CSimpleMap map;
-  try {
-    if (!map.loadFromFile(file.string())) throw error("something else");
-  } catch (const files::InputError&) {
-    throw;
-  } catch (const std::exception& of_mrpt) {
-    throw error(dataset::message_of(of_mrpt));
-  }
   std::vector<MapKeyframe> keyframes;
   std::size_t points = 0;
-  for (std::size_t k = 0; k < map.size(); ++k) {
-    mrpt::poses::CPose3DPDF::Ptr pose;
-    mrpt::obs::CSensoryFrame::Ptr frame;
-    map.get(k, pose, frame);
+  dataset::for_each_keyframe(file, [&](std::size_t, const auto& pose, const auto& frame) {
     MapKeyframe& keyframe = keyframes.emplace_back();
-    keyframe.T_map_body = dataset::to_pose(pose->getMeanVal()).orthonormalised();
-    for (const auto& observation : *frame) {
-      if (is_part_of_map(*frame, *observation)) append(*observation, keyframe);
+    keyframe.T_map_body = dataset::to_pose(pose.getMeanVal()).orthonormalised();
+    for (const auto& observation : frame) {
+      if (is_part_of_map(frame, *observation)) append(*observation, keyframe);
     }
+    dataset::PointAttributes attributes = dataset::attributes_of(frame, keyframe.size());
+    keyframe.time = std::move(attributes.time);
+    keyframe.ring = std::move(attributes.ring);
     points += keyframe.size();
+  });
+  if (points == 0) {
+    throw files::InputError(file, files::Place::whole_file(), "a simple map of MRPT with points",
+                            fmt::format("{} keyframes without a point", keyframes.size()));
   }
-  if (points == 0) throw error(fmt::format("{} keyframes without a point", keyframes.size()));
   return keyframes;
 }
 

@@ -1,5 +1,6 @@
 #include "traverse/mapping/map_points.hpp"
 
+#include <algorithm>
 #include <tsl/robin_set.h>
 
 #include <Eigen/Dense>
@@ -8,6 +9,15 @@
 #include "traverse/geometry/voxel.hpp"
 
 namespace traverse::mapping {
+
+namespace {
+
+/// A point of a keyframe that does not know times was seen at its stamp.
+double time_of(const MapKeyframe& keyframe, std::size_t i) {
+  return keyframe.time.empty() ? 0 : keyframe.time[i];
+}
+
+}  // namespace
 
 MapPoints map_points(std::span<const MapKeyframe> keyframes, double voxel_m) {
   MapPoints points;
@@ -21,7 +31,8 @@ MapPoints map_points(std::span<const MapKeyframe> keyframes, double voxel_m) {
       points.y.push_back(static_cast<float>(p.y()));
       points.z.push_back(static_cast<float>(p.z()));
       points.intensity.push_back(keyframe.intensity.empty() ? 0 : keyframe.intensity[i]);
-      points.time.push_back(keyframe.stamp.seconds());
+      points.time.push_back(geometry::shifted(keyframe.stamp, time_of(keyframe, i)).seconds());
+      points.ring.push_back(keyframe.ring.empty() ? MapPoints::kNoRing : keyframe.ring[i]);
       points.keyframe.push_back(static_cast<std::uint32_t>(k));
     }
   }
@@ -36,6 +47,9 @@ void write_ply(const std::filesystem::path& file, const MapPoints& points, bool 
   cloud.add("intensity", points.intensity);
   if (with_attributes) {
     cloud.add("time", points.time);
+    const bool knows_rings = std::any_of(points.ring.begin(), points.ring.end(),
+                                         [](auto ring) { return ring != MapPoints::kNoRing; });
+    if (knows_rings) cloud.add("ring", points.ring);
     cloud.add("keyframe", points.keyframe);
   }
   dataset::write_ply(file, cloud);

@@ -1,7 +1,12 @@
 #include "run_results.hpp"
 
+#include <cstdint>
 #include <utility>
 #include <vector>
+
+#include "traverse/mapping/map_keyframe.hpp"
+#include "traverse/sensors/rings.hpp"
+#include "traverse/sensors/sweep_timing.hpp"
 
 namespace traverse::pipeline {
 
@@ -18,6 +23,17 @@ std::vector<std::string> table_columns(const Estimator& estimator) {
   return columns;
 }
 
+/// Time and ring of each point, as far as the recording tells.
+void add_attributes(const sensors::LidarScan& scan, const sensors::LidarProfile& profile,
+                    const UsedScan& used, mapping::MapKeyframe& keyframe) {
+  const sensors::PointClock clock(scan, profile);
+  const std::vector<std::uint16_t> rings = sensors::rings_if_known(scan, profile);
+  for (const std::uint32_t source : used.source) {
+    if (clock.knows()) keyframe.time.push_back(clock(source));
+    if (!rings.empty()) keyframe.ring.push_back(rings[source]);
+  }
+}
+
 }  // namespace
 
 RunResults::RunResults(const Estimator& estimator, const dataset::RecordingInfo& recording,
@@ -29,9 +45,10 @@ RunResults::RunResults(const Estimator& estimator, const dataset::RecordingInfo&
       frames_(table_columns(estimator)),
       scorer_(estimator.points_are()),
       map_(options.map_voxel_m, options.most_map_points),
-      keyframes_(mapping::KeyframeMapOptions{}),
+      keyframes_(mapping::KeyframeMapOptions{}, folder.path),
       closes_loops_(estimator.slam_map().has_value()),
-      recorder_(folder.path, estimator) {}
+      recorder_(folder.path, estimator),
+      waiting_(folder.path) {}
 
 void RunResults::add(const PoseFrame& frame, const ScanPtr& scan, bool latest) {
   add_row(frame);
@@ -44,7 +61,7 @@ void RunResults::add(const PoseFrame& frame, const ScanPtr& scan, bool latest) {
   sensor_ = scan->sensor;
   if (closes_loops_ && !sample && !scored && !recorded) return;
   const UsedScan used = estimator_.used_scan(*scan, frame, sample);
-  if (!closes_loops_) add_to_maps(frame, used);
+  if (!closes_loops_) add_to_maps(frame, *scan, used);
   if (scored && closes_loops_) waiting_.add(pose, used);
   if (scored && !closes_loops_) scorer_.add(used.x, used.y, used.z, frame.T_map_body);
   if (recorded) recorder_.add(pose, frame, used);
@@ -73,12 +90,22 @@ dataset::PointCloud RunResults::worst_frames(const evaluation::WorstSegments& wo
   return recorder_.worst_frames(worst, trajectory_, first_frame_);
 }
 
-void RunResults::add_to_maps(const PoseFrame& frame, const UsedScan& used) {
+void RunResults::add_to_maps(const PoseFrame& frame, const sensors::LidarScan& scan,
+                             const UsedScan& used) {
   map_.insert(used.x, used.y, used.z, used.intensity, frame.T_map_body);
   if (!keyframes_.wants(frame.T_map_body)) return;
+  mapping::MapKeyframe keyframe;
+  keyframe.stamp = frame.stamp;
+  keyframe.sensor = sensor_;
+  keyframe.T_map_body = frame.T_map_body;
+  keyframe.x = used.x;
+  keyframe.y = used.y;
+  keyframe.z = used.z;
+  keyframe.intensity = used.intensity;
   const sensors::MountedSensor* lidar = recording_.rig.find(sensor_);
-  keyframes_.add(frame.stamp, sensor_, used.x, used.y, used.z, used.intensity, frame.T_map_body,
-                 lidar == nullptr ? Eigen::Vector3d::Zero() : lidar->T_body_sensor.translation);
+  if (lidar != nullptr) keyframe.p_body_sensor = lidar->T_body_sensor.translation;
+  if (lidar != nullptr && lidar->lidar) add_attributes(scan, *lidar->lidar, used, keyframe);
+  keyframes_.add(keyframe);
 }
 
 void RunResults::add_row(const PoseFrame& frame) {

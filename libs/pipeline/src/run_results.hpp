@@ -47,7 +47,7 @@ class RunResults {
   dataset::PointCloud worst_frames(const evaluation::WorstSegments& worst);
 
  private:
-  void add_to_maps(const PoseFrame& frame, const UsedScan& used);
+  void add_to_maps(const PoseFrame& frame, const sensors::LidarScan& scan, const UsedScan& used);
 
   void add_row(const PoseFrame& frame);
 

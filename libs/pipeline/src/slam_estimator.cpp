@@ -1,7 +1,10 @@
 #include "slam_estimator.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
+#include <numbers>
 #include <utility>
 #include <variant>
 
@@ -29,6 +32,10 @@ void bind(config::Binder& b, SlamEstimatorOptions& o) {
              "of a fix that does not tell its covariance");
     g.number("least_sigma_m", o.gnss.least_sigma_m, Range::positive(), "believed of any fix");
   });
+  b.group("gravity", "up by the recording's first IMU", [&](config::Binder& g) {
+    g.flag("use", o.gravity.use, "let gravity hold roll and pitch, where there is an IMU");
+    bind(g, o.gravity.finder);
+  });
   b.group("localize", "follow the recording in a given map instead",
           [&](config::Binder& g) { bind(g, o.localization); });
   bind(b, o.slam);
@@ -42,6 +49,12 @@ SlamEstimator::SlamEstimator(std::unique_ptr<LidarEstimator> odometry,
       slam_(options.slam, *odometry_->sensor().lidar),
       columns_(odometry_->columns()) {
   columns_.insert(columns_.end(), {"keyframe", "loops", "slam_ms"});
+  const auto* imu = recording.rig.first(sensors::SensorKind::kImu);
+  if (options.gravity.use && imu != nullptr) {
+    imu_ = imu->label;
+    gravity_.emplace(options.gravity.finder,
+                     odometry_->sensor().T_body_sensor.inverse() * imu->T_body_sensor);
+  }
   const auto* receiver = recording.rig.first(sensors::SensorKind::kGnss);
   if (!gnss_.use || receiver == nullptr) return;
   if (receiver->label == recording.reference_receiver) {
@@ -61,6 +74,8 @@ SlamEstimator::SlamEstimator(const SlamEstimator& other)
       plane_(other.plane_),
       fixes_(other.fixes_),
       last_frame_(other.last_frame_),
+      imu_(other.imu_),
+      gravity_(other.gravity_),
       odometry_(other.odometry_->copy()),
       slam_(other.slam_),
       columns_(other.columns_),
@@ -72,6 +87,8 @@ std::unique_ptr<Estimator> SlamEstimator::clone() const {
 
 std::vector<PoseFrame> SlamEstimator::process(const sensors::Measurement& measurement) {
   if (const auto* fix = std::get_if<sensors::GnssFix>(&measurement)) take(*fix);
+  const auto* imu = std::get_if<sensors::ImuSample>(&measurement);
+  if (imu != nullptr && gravity_ && imu->sensor == imu_) gravity_->observe(*imu);
   const auto* scan = std::get_if<std::shared_ptr<const sensors::LidarScan>>(&measurement);
   if (scan != nullptr && (*scan)->sensor == odometry_->sensor().label) waiting_.push_back(*scan);
   return close_loops(odometry_->process(measurement));
@@ -96,6 +113,7 @@ std::vector<PoseFrame> SlamEstimator::close_loops(std::vector<PoseFrame> frames)
       slam_.add(latest[k], *scan, points, odometry_->odometry().deskew_note() == "on");
     }
     place_fixes(latest[k]);
+    level(latest[k]);
     const double milliseconds = milliseconds_since(started);
     frames[k].record.push_back(wanted ? 1 : 0);
     frames[k].record.push_back(static_cast<double>(slam_.loops().size() - loops_before));
@@ -139,11 +157,47 @@ void SlamEstimator::place(const sensors::GnssFix& fix, const geometry::Pose3& T_
   slam_.add_gnss(plane_->to_enu(place), covariance, T_keyframe_lidar * antenna_lidar_);
 }
 
+/// A window of time tells of no one keyframe: up counts for the latest, to which odometry carries
+/// it.
+void SlamEstimator::level(const lidar::Frame& frame) {
+  if (!gravity_) return;
+  const auto up = gravity_->add(frame);
+  if (!up) return;
+  const geometry::Pose3& T_odom_lidar = slam_.chain().T_odom_lidar(slam_.keyframes().size() - 1);
+  slam_.add_gravity(T_odom_lidar.rotation.transpose() * up->up_odom, up->sigma_rad);
+}
+
+std::string SlamEstimator::gravity_note() const {
+  const std::vector<pose_graph::Level>& levels = slam_.graph().levels();
+  if (levels.empty()) {
+    return fmt::format(
+        "not used: none found in {} windows of samples of {} with gaps, {} whose "
+        "length is not that of gravity",
+        gravity_->with_gaps(), imu_, gravity_->turned_away());
+  }
+  std::vector<double> sigmas_deg;
+  double chi2 = 0;
+  std::size_t rejected = 0;
+  for (const pose_graph::Level& level : levels) {
+    sigmas_deg.push_back(level.sigma_rad * 180 / std::numbers::pi);
+    chi2 += level.chi2 / (2 * static_cast<double>(levels.size()));
+    rejected += level.is_rejected() ? 1 : 0;
+  }
+  const auto middle = sigmas_deg.begin() + static_cast<std::ptrdiff_t>(sigmas_deg.size() / 2);
+  std::nth_element(sigmas_deg.begin(), middle, sigmas_deg.end());
+  return fmt::format(
+      "{} directions of up by {} (sigma {:.3f} deg, chi-square {:.2f} a degree of freedom, {} "
+      "rejected), off by {:.3f} deg in common; {} more have not the length of gravity",
+      levels.size(), imu_, *middle, chi2, rejected,
+      slam_.graph().up_offset().norm() * 180 / std::numbers::pi, gravity_->turned_away());
+}
+
 std::vector<Decision> SlamEstimator::decisions() const {
   std::vector<Decision> decisions = odometry_->decisions();
   decisions.push_back(
       {"loops", fmt::format("{} of {} candidates accepted, {} keyframes", slam_.accepted_loops(),
                             slam_.loops().size(), slam_.keyframes().size())});
+  if (gravity_) decisions.push_back({"gravity", gravity_note()});
   if (!gnss_note_.empty()) decisions.push_back({"fixes", gnss_note_});
   if (slam_.graph().is_georeferenced()) {
     const geodesy::Geodetic& origin = plane_->origin();

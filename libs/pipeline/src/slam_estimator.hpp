@@ -8,6 +8,7 @@
 #include "traverse/geodesy/local_tangent_plane.hpp"
 #include "traverse/geometry/trajectory.hpp"
 #include "traverse/pipeline/estimator.hpp"
+#include "traverse/slam/gravity_finder.hpp"
 #include "traverse/slam/slam.hpp"
 
 #include "lidar_estimator.hpp"
@@ -21,10 +22,16 @@ struct SlamGnssOptions {
   double least_sigma_m = 0.02;
 };
 
+struct SlamGravityOptions {
+  bool use = true;  ///< the recording's first IMU, where it has one
+  slam::GravityOptions finder;
+};
+
 /// Loops over an odometry, and what else its graph takes.
 struct SlamEstimatorOptions {
   bool use = false;  ///< off: odometry alone
   SlamGnssOptions gnss;
+  SlamGravityOptions gravity;
   LocalizationOptions localization;  ///< with a map: no map is built, it is followed
   slam::SlamOptions slam;
 };
@@ -65,6 +72,8 @@ class SlamEstimator final : public Estimator {
   void take(const sensors::GnssFix& fix);
   void place_fixes(const lidar::Frame& frame);
   void place(const sensors::GnssFix& fix, const geometry::Pose3& T_odom_lidar);
+  void level(const lidar::Frame& frame);
+  std::string gravity_note() const;
 
   SlamGnssOptions gnss_;
   std::string receiver_;   ///< label; empty: no fixes
@@ -73,6 +82,9 @@ class SlamEstimator final : public Estimator {
   std::optional<geodesy::LocalTangentPlane> plane_;  ///< at the first fix
   std::deque<sensors::GnssFix> fixes_;               ///< that wait for the frame after them
   std::optional<lidar::Frame> last_frame_;
+
+  std::string imu_;                             ///< label
+  std::optional<slam::GravityFinder> gravity_;  ///< nothing: up is not looked for
 
   std::unique_ptr<LidarEstimator> odometry_;
   slam::Slam slam_;

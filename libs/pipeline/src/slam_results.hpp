@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "traverse/evaluation/consistency.hpp"
+#include "traverse/files/scratch_file.hpp"
 #include "traverse/geometry/trajectory.hpp"
 #include "traverse/mapping/keyframe_map.hpp"
 #include "traverse/mapping/voxel_map.hpp"
@@ -14,9 +17,12 @@
 namespace traverse::pipeline {
 
 /// Scans that the consistency score will take once their final poses are known. Of each only those
-/// points are kept that the score may use.
+/// points are kept that the score may use, on disk.
 class WaitingForScore {
  public:
+  /// \param scratch a folder with room for them; nothing is left there
+  explicit WaitingForScore(const std::filesystem::path& scratch) : room_(scratch) {}
+
   /// \param frame number of the scan's pose in the trajectory
   void add(std::size_t frame, const UsedScan& scan);
 
@@ -27,8 +33,10 @@ class WaitingForScore {
  private:
   struct Scan {
     std::size_t frame = 0;
-    std::vector<float> x, y, z;
+    std::size_t points = 0;
+    std::uint64_t offset = 0;  ///< in the room on disk: all x, all y, all z
   };
+  files::ScratchFile room_;
   std::vector<Scan> scans_;
 };
 

@@ -78,10 +78,10 @@ struct GravityFunctor {
   double sigma;
 
   template <typename T>
-  bool operator()(const T* q, const T* up_map, T* residual) const {
+  bool operator()(const T* q, const T* up_map, const T* offset, T* residual) const {
     const Vector3<T> up = unit(q).conjugate() * Vector3<T>(up_map);
     Eigen::Map<Vector3<T>> r(residual);
-    r = (up - up_body.cast<T>()) / T(sigma);
+    r = (up + Vector3<T>(offset) - up_body.cast<T>()) / T(sigma);
     return true;
   }
 };
@@ -123,10 +123,10 @@ FactorSample antenna_sample(RandomStates& random) {
 
 FactorSample gravity_sample(RandomStates& random) {
   const GravityFunctor up{random.unit_vector(), random.uniform(0.05, 0.5)};
-  using Automatic = ceres::AutoDiffCostFunction<GravityFunctor, 3, 4, 3>;
+  using Automatic = ceres::AutoDiffCostFunction<GravityFunctor, 3, 4, 3, 3>;
   return {std::make_shared<GravityCost>(up.up_body, up.sigma),
           std::make_shared<Automatic>(new GravityFunctor(up)),
-          {random.quaternion(3), random.unit_vector()}};
+          {random.quaternion(3), random.unit_vector(), random.vector(0.5)}};
 }
 
 template <typename Make>
@@ -151,7 +151,8 @@ std::vector<FactorKind> factor_kinds() {
            {of(kRotation, "i"), of(kTranslation, "i"), of(kRotation, "j"), of(kTranslation, "j")},
            between_sample),
       kind("antenna position", "r = p + R l - z", {kRotation, kTranslation}, antenna_sample),
-      kind("up direction", "r = R' u - um", {kRotation, {"up", 3, false}}, gravity_sample)};
+      kind("up direction", "r = R' u + b - um", {kRotation, {"up", 3, false}, {"offset", 3, false}},
+           gravity_sample)};
 }
 
 }  // namespace traverse::pose_graph

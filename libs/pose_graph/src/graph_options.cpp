@@ -4,7 +4,7 @@ namespace traverse::pose_graph {
 
 void bind(config::Binder& b, GraphOptions& o) {
   using config::Range;
-  b.flag("robust", o.robust, "loops and fixes that contradict the rest lose their weight");
+  b.flag("robust", o.robust, "loops, fixes and ups that contradict the rest lose their weight");
   b.number("outlier_probability", o.outlier_probability, Range::between(1e-6, 0.5),
            "of a consistent loop to be taken for a false one: where its weight begins to fall");
   b.number("graduation", o.graduation, Range::between(1.4, 100),
@@ -15,6 +15,8 @@ void bind(config::Binder& b, GraphOptions& o) {
             "Levenberg-Marquardt steps of the last stage");
   b.number("least_fix_spread", o.least_fix_spread, Range::between(1, 1e6),
            "GNSS fixes orient the map when their spread is so many of their standard deviations");
+  b.number("up_offset_deg", o.up_offset_deg, Range::non_negative(),
+           "standard deviation of the error that all measured directions of up share");
 }
 
 }  // namespace traverse::pose_graph

@@ -88,8 +88,8 @@ class AntennaCost final : public ceres::SizedCostFunction<3, 4, 3> {
   Eigen::Matrix3d W_;
 };
 
-/// Blocks: rotation of the body, direction of up in the map.
-class GravityCost final : public ceres::SizedCostFunction<3, 4, 3> {
+/// Blocks: rotation of the body, direction of up in the map, offset of the instrument.
+class GravityCost final : public ceres::SizedCostFunction<3, 4, 3, 3> {
  public:
   GravityCost(const Eigen::Vector3d& up_body, double sigma)
       : up_body_(up_body), weight_(1 / sigma) {}
@@ -97,17 +97,22 @@ class GravityCost final : public ceres::SizedCostFunction<3, 4, 3> {
   bool Evaluate(double const* const* x, double* r, double** jacobians) const override {
     static constexpr double kNowhere[3] = {0, 0, 0};  // a direction does not know the position
     const Eigen::Map<const Eigen::Vector3d> up_map(x[1]);
+    const Eigen::Map<const Eigen::Vector3d> offset(x[2]);
     PoseJacobian<3> dr_dx;
     Eigen::Matrix3d dr_dup;
     const bool derive = jacobians != nullptr;
     Eigen::Map<Residual<3>> residual(r);
-    residual = weight_ * gravity_residual(up_body_, pose_of(x[0], kNowhere), up_map,
+    residual = weight_ * gravity_residual(up_body_, pose_of(x[0], kNowhere), up_map, offset,
                                           derive ? &dr_dx : nullptr, derive ? &dr_dup : nullptr);
     if (!derive) return true;
     write_jacobians<3>(weight_ * dr_dx, x[0], jacobians[0], nullptr);
     if (jacobians[1] != nullptr) {
       Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> by_up(jacobians[1]);
       by_up = weight_ * dr_dup;
+    }
+    if (jacobians[2] != nullptr) {
+      Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> by_offset(jacobians[2]);
+      by_offset = weight_ * Eigen::Matrix3d::Identity();
     }
     return true;
   }

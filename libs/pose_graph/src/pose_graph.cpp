@@ -108,15 +108,16 @@ Result PoseGraph::optimise(Start start) {
     find_up();
     georeference();
   }
-  const GraphParts parts{edges_,        fixes_,       levels_, index_of_, is_georeferenced_,
-                         judged_edges_, judged_fixes_};
+  const GraphParts parts{edges_,        fixes_,        levels_,       index_of_, is_georeferenced_,
+                         judged_edges_, judged_fixes_, judged_levels_};
   const double initial_cost = evaluate();
-  result = solve(parts, options_, poses_, up_map_);
+  result = solve(parts, options_, {poses_, up_map_, up_offset_});
   result.initial_cost = initial_cost;
   result.final_cost = evaluate();
   solved_nodes_ = ids_.size();
   judged_edges_ = edges_.size();
   judged_fixes_ = is_georeferenced_ ? fixes_.size() : 0;
+  judged_levels_ = levels_.size();
 
   const auto is_rejected = [](const auto& measured) { return measured.is_rejected(); };
   const auto count = [](const auto& list, const auto& condition) {
@@ -126,6 +127,8 @@ Result PoseGraph::optimise(Start start) {
   result.rejected_loops = count(edges_, is_rejected);
   result.fixes = fixes_.size();
   result.rejected_fixes = is_georeferenced_ ? count(fixes_, is_rejected) : 0;
+  result.levels = levels_.size();
+  result.rejected_levels = count(levels_, is_rejected);
   result.is_georeferenced = is_georeferenced_;
   return result;
 }
@@ -135,6 +138,8 @@ void PoseGraph::forget_solution() {
   solved_nodes_ = 0;
   judged_edges_ = 0;
   judged_fixes_ = 0;
+  judged_levels_ = 0;
+  up_offset_.setZero();
   is_georeferenced_ = false;
 }
 
@@ -169,6 +174,7 @@ void PoseGraph::georeference() {
 double PoseGraph::evaluate() {
   const double loop_bound = chi2_bound(6, options_.outlier_probability);
   const double fix_bound = chi2_bound(3, options_.outlier_probability);
+  const double level_bound = chi2_bound(2, options_.outlier_probability);
   double sum = 0;
   for (Edge& edge : edges_) {
     edge.residual = between_residual(edge.T_i_j, pose(edge.i), pose(edge.j));
@@ -185,9 +191,14 @@ double PoseGraph::evaluate() {
     sum += options_.robust ? scaled_cost(fix.chi2, fix_bound) : fix.chi2;
   }
   for (Level& level : levels_) {
-    const Residual<3> r = gravity_residual(level.up_body, pose(level.node), up_map_);
+    const Residual<3> r = gravity_residual(level.up_body, pose(level.node), up_map_, up_offset_);
     level.angle_rad = 2 * std::asin(std::min(1.0, r.norm() / 2));  // of its chord
-    sum += r.squaredNorm() / (level.sigma_rad * level.sigma_rad);
+    level.chi2 = r.squaredNorm() / (level.sigma_rad * level.sigma_rad);
+    level.weight = options_.robust ? scaling_weight(level.chi2, level_bound) : 1;
+    sum += options_.robust ? scaled_cost(level.chi2, level_bound) : level.chi2;
+  }
+  if (options_.up_offset_deg > 0) {
+    sum += up_offset_.squaredNorm() / std::pow(up_offset_sigma(options_), 2);
   }
   return sum / 2;
 }

@@ -44,15 +44,15 @@ Residual<3> antenna_residual(const Eigen::Vector3d& antenna_map_measured,
 }
 
 Residual<3> gravity_residual(const Eigen::Vector3d& up_body_measured, const Pose3& T_map_body,
-                             const Eigen::Vector3d& up_map, PoseJacobian<3>* dr_dx,
-                             Eigen::Matrix3d* dr_dup) {
+                             const Eigen::Vector3d& up_map, const Eigen::Vector3d& offset_body,
+                             PoseJacobian<3>* dr_dx, Eigen::Matrix3d* dr_dup) {
   const Eigen::Vector3d up_body = T_map_body.rotation.transpose() * up_map;
   if (dr_dx != nullptr) {
     dr_dx->leftCols<3>() = hat(up_body);
     dr_dx->rightCols<3>().setZero();
   }
   if (dr_dup != nullptr) *dr_dup = T_map_body.rotation.transpose();
-  return up_body - up_body_measured;
+  return up_body + offset_body - up_body_measured;
 }
 
 }  // namespace traverse::pose_graph

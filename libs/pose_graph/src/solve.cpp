@@ -4,9 +4,12 @@
 #include <array>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <deque>
+#include <numbers>
 #include <numeric>
+#include <optional>
 #include <utility>
 
+#include <ceres/normal_prior.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 #include <ceres/sphere_manifold.h>
@@ -56,14 +59,15 @@ struct DoubtfulFactor {
 
 class GraphProblem {
  public:
-  GraphProblem(const GraphParts& graph, const GraphOptions& options,
-               const std::vector<geometry::Pose3>& poses, const Eigen::Vector3d& up_map)
+  GraphProblem(const GraphParts& graph, const GraphOptions& options, const GraphState& state)
       : graph_(graph),
         options_(options),
-        poses_(poses.begin(), poses.end()),
-        up_map_(up_map),
+        poses_(state.poses.begin(), state.poses.end()),
+        up_map_(state.up_map),
+        up_offset_(state.up_offset),
         loop_loss_(chi2_bound(6, options.outlier_probability)),
         fix_loss_(chi2_bound(3, options.outlier_probability)),
+        level_loss_(chi2_bound(2, options.outlier_probability)),
         problem_(problem_options()) {
     for (std::size_t e = 0; e < graph.edges.size(); ++e) {
       const Edge& edge = graph.edges[e];
@@ -73,7 +77,11 @@ class GraphProblem {
       const Fix& fix = graph.fixes[f];
       add(fix, f < graph.judged_fixes && fix.is_rejected());
     }
-    for (const Level& level : graph.levels) add(level);
+    for (std::size_t l = 0; l < graph.levels.size(); ++l) {
+      const Level& level = graph.levels[l];
+      add(level, l < graph.judged_levels && level.is_rejected());
+    }
+    if (!graph.levels.empty()) add_offset();
     hold_gauge();
   }
 
@@ -90,6 +98,7 @@ class GraphProblem {
   ceres::Solver::Summary stage(double widening, int iterations) {
     loop_loss_.widen(widening);
     fix_loss_.widen(widening);
+    level_loss_.widen(widening);
     take_in_or_leave_out();
     ceres::Solver::Options solver;
     solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
@@ -123,10 +132,11 @@ class GraphProblem {
     return is_changed;
   }
 
-  void take_solution(std::vector<geometry::Pose3>& poses, Eigen::Vector3d& up_map) const {
-    std::transform(poses_.begin(), poses_.end(), poses.begin(),
+  void take_solution(const GraphState& state) const {
+    std::transform(poses_.begin(), poses_.end(), state.poses.begin(),
                    [](const PoseBlocks& blocks) { return blocks.pose(); });
-    up_map = up_map_.normalized();
+    state.up_map = up_map_.normalized();
+    state.up_offset = up_offset_;
   }
 
  private:
@@ -157,12 +167,25 @@ class GraphProblem {
         was_rejected);
   }
 
-  void add(const Level& level) {
+  void add(const Level& level, bool was_rejected) {
     PoseBlocks& x = at(level.node);
     add(x);
     problem_.AddParameterBlock(up_map_.data(), 3, &direction_manifold_);
+    problem_.AddParameterBlock(up_offset_.data(), 3);
     ups_.emplace_back(level.up_body, level.sigma_rad);
-    add(&ups_.back(), nullptr, {x.rotation(), up_map_.data()}, false);
+    add(&ups_.back(), options_.robust ? &level_loss_ : nullptr,
+        {x.rotation(), up_map_.data(), up_offset_.data()}, was_rejected);
+  }
+
+  void add_offset() {
+    const double sigma = up_offset_sigma(options_);
+    if (sigma == 0) {
+      problem_.SetParameterBlockConstant(up_offset_.data());
+      return;
+    }
+    offset_prior_.emplace(ceres::Matrix(ceres::Matrix::Identity(3, 3) / sigma),
+                          ceres::Vector(ceres::Vector::Zero(3)));
+    problem_.AddResidualBlock(&*offset_prior_, nullptr, up_offset_.data());
   }
 
   void add(ceres::CostFunction* cost, ScalingLoss* loss, std::vector<double*> parameters,
@@ -189,13 +212,15 @@ class GraphProblem {
   const GraphParts& graph_;
   const GraphOptions& options_;
   std::vector<PoseBlocks> poses_;
-  Eigen::Vector3d up_map_;
+  Eigen::Vector3d up_map_, up_offset_;
   std::deque<BetweenCost> between_;
   std::deque<AntennaCost> antennas_;
   std::deque<GravityCost> ups_;
+  std::optional<ceres::NormalPrior> offset_prior_;
   std::vector<DoubtfulFactor> doubtful_;
   ScalingLoss loop_loss_;
   ScalingLoss fix_loss_;
+  ScalingLoss level_loss_;
   optimization::RotationManifold rotation_manifold_;
   ceres::SphereManifold<3> direction_manifold_;
   ceres::Problem problem_;
@@ -208,9 +233,12 @@ double chi2_bound(int rows, double probability) {
       boost::math::complement(boost::math::chi_squared(rows), probability));
 }
 
-Result solve(const GraphParts& graph, const GraphOptions& options,
-             std::vector<geometry::Pose3>& poses, Eigen::Vector3d& up_map) {
-  GraphProblem problem(graph, options, poses, up_map);
+double up_offset_sigma(const GraphOptions& options) {
+  return options.up_offset_deg * std::numbers::pi / 180;
+}
+
+Result solve(const GraphParts& graph, const GraphOptions& options, const GraphState& state) {
+  GraphProblem problem(graph, options, state);
   Result result;
   const auto count = [&](const ceres::Solver::Summary& summary) {
     ++result.stages;
@@ -228,7 +256,7 @@ Result solve(const GraphParts& graph, const GraphOptions& options,
   } while (problem.take_in_or_leave_out() && result.iterations < 4 * options.most_iterations);
   result.converged = summary.termination_type == ceres::CONVERGENCE;
   result.message = summary.message;
-  problem.take_solution(poses, up_map);
+  problem.take_solution(state);
   return result;
 }
 

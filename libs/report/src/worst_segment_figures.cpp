@@ -31,12 +31,18 @@ struct Points {
   render::MapPoints shown() const { return {x, y, z, Eigen::Vector3d::Zero()}; }
 };
 
+struct MatchedPoints {
+  Points points;
+  std::vector<float> offset_x, offset_y, offset_z;
+
+  std::size_t size() const { return points.x.size(); }
+  render::Matches shown() const { return {points.shown(), offset_x, offset_y, offset_z}; }
+};
+
 /// How a frame was registered: its part of worst_frames.ply.
 struct RegisteredFrame {
   Points scan;
-  Points matches;
-  std::vector<float> offset_x, offset_y, offset_z;
-  std::size_t on_lines = 0;
+  MatchedPoints on_lines, on_planes;
 };
 
 std::vector<float> floats(const dataset::PointCloud& cloud, const std::string& field) {
@@ -61,11 +67,11 @@ std::map<std::size_t, RegisteredFrame> registered_frames(const RunData& run) {
       frame.scan.add(x[i], y[i], z[i]);
       continue;
     }
-    frame.matches.add(x[i], y[i], z[i]);
-    frame.offset_x.push_back(offset[0][i]);
-    frame.offset_y.push_back(offset[1][i]);
-    frame.offset_z.push_back(offset[2][i]);
-    if (kind[i] == 1) ++frame.on_lines;
+    MatchedPoints& matches = kind[i] == 1 ? frame.on_lines : frame.on_planes;
+    matches.points.add(x[i], y[i], z[i]);
+    matches.offset_x.push_back(offset[0][i]);
+    matches.offset_y.push_back(offset[1][i]);
+    matches.offset_z.push_back(offset[2][i]);
   }
   return frames;
 }
@@ -102,20 +108,20 @@ const std::pair<const std::size_t, RegisteredFrame>* frame_in(
 
 void add_registration(const Shown& shown, std::size_t number, const RegisteredFrame& frame,
                       FigureMaker& maker) {
-  const std::size_t matches = frame.matches.x.size();
+  const std::size_t lines = frame.on_lines.size();
+  const std::size_t planes = frame.on_planes.size();
   const std::string how =
-      matches == 0 ? std::string("its scan, thinned; this estimator does not tell its matches")
-                   : fmt::format("its scan and its matches, {} on lines and {} on planes, thinned",
-                                 frame.on_lines, matches - frame.on_lines);
+      lines + planes == 0
+          ? std::string("its scan, thinned; this estimator does not tell its matches")
+          : fmt::format("its scan and its matches, {} on lines and {} on planes, thinned", lines,
+                        planes);
   maker.add_sized(
       "worst", shown.picture(),
       fmt::format("Number {} of the worst segments, {}. Frame {}: {}.", shown.place, shown.frames,
                   number, how),
       [&](const render::Style& style) {
         return render::scan_matches(
-            {frame.scan.shown(), frame.matches.shown(), frame.offset_x, frame.offset_y,
-             frame.offset_z},
-            shown.way,
+            {frame.scan.shown(), frame.on_lines.shown(), frame.on_planes.shown()}, shown.way,
             maker.caption(fmt::format("{}: frame {}", shown.title(), number),
                           fmt::format("{}: {}", shown.frames, shown.value)),
             style);

@@ -89,4 +89,12 @@ RingAssignment assign_rings(const LidarScan& scan, const LidarProfile& profile) 
   return result;
 }
 
+std::vector<std::uint16_t> rings_if_known(const LidarScan& scan, const LidarProfile& profile) {
+  try {
+    return assign_rings(scan, profile).ring;
+  } catch (const NoRings&) {
+    return {};
+  }
+}
+
 }  // namespace traverse::sensors

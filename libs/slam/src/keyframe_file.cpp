@@ -2,11 +2,11 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
 #include <mrpt/maps/CPointsMapXYZI.h>
-#include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationPointCloud.h>
@@ -14,10 +14,11 @@
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <nlohmann/json.hpp>
 
-#include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 
 #include "mrpt_values.hpp"
+#include "point_attributes.hpp"
+#include "simple_map_file.hpp"
 
 namespace traverse::slam {
 
@@ -73,6 +74,27 @@ mrpt::maps::CPointsMap::Ptr plain(const lidar::voxel::SweepPoints& from) {
   return points;
 }
 
+mrpt::obs::CSensoryFrame::Ptr sensory_frame(const Keyframe& keyframe) {
+  auto frame = mrpt::obs::CSensoryFrame::Create();
+  frame->insert(observation(kMapPoints, keyframe.stamp, with_intensity(keyframe.points)));
+  const dataset::PointAttributes attributes{keyframe.points.time, keyframe.points.ring};
+  if (!attributes.empty()) frame->insert(dataset::to_observation(attributes, keyframe.stamp));
+  frame->insert(observation(kSurfacePoints, keyframe.stamp, plain(keyframe.features.surface)));
+  frame->insert(observation(kEdgePoints, keyframe.stamp, plain(keyframe.features.edges)));
+  auto comment = mrpt::obs::CObservationComment::Create();
+  comment->timestamp = dataset::to_mrpt(keyframe.stamp);
+  comment->sensorLabel = "keyframe";
+  comment->text = comment_of(keyframe);
+  frame->insert(comment);
+  return frame;
+}
+
+KeyframePoints map_points(const mrpt::maps::CPointsMap& from) {
+  KeyframePoints points;
+  from.getAllPoints(points.x, points.y, points.z);
+  return points;
+}
+
 lidar::voxel::SweepPoints sweep_points(const mrpt::maps::CPointsMap& from) {
   lidar::voxel::SweepPoints points;
   for (std::size_t i = 0; i < from.size(); ++i) {
@@ -102,63 +124,30 @@ const mrpt::maps::CPointsMap& cloud(const mrpt::obs::CSensoryFrame& frame, const
 
 void write_keyframes(const std::filesystem::path& file, const KeyframeStore& keyframes,
                      const std::function<geometry::Pose3(std::size_t)>& T_map_lidar) {
-  mrpt::maps::CSimpleMap map;
-  for (std::size_t i = 0; i < keyframes.size(); ++i) {
-    const auto keyframe = keyframes.at(i);
-    auto frame = mrpt::obs::CSensoryFrame::Create();
-    frame->insert(observation(kMapPoints, keyframe->stamp, with_intensity(keyframe->points)));
-    frame->insert(observation(kSurfacePoints, keyframe->stamp, plain(keyframe->features.surface)));
-    frame->insert(observation(kEdgePoints, keyframe->stamp, plain(keyframe->features.edges)));
-    auto comment = mrpt::obs::CObservationComment::Create();
-    comment->timestamp = dataset::to_mrpt(keyframe->stamp);
-    comment->sensorLabel = "keyframe";
-    comment->text = comment_of(*keyframe);
-    frame->insert(comment);
-    const mrpt::poses::CPose3DPDF::Ptr pose =
-        mrpt::poses::CPose3DPDFGaussian::Create(dataset::to_mrpt(T_map_lidar(i)));
-    map.insert(pose, frame);
-  }
-  files::AtomicFile target(file);
-  target.stream().flush();
-  if (!map.saveToFile(target.temporary_path().string())) {
-    throw files::OutputError(file, "MRPT could not write the keyframes");
-  }
-  map.clear();  // one copy in memory is enough
-  // MRPT's stream does not tell a full disk, so the map is read back.
-  mrpt::maps::CSimpleMap written;
-  if (!written.loadFromFile(target.temporary_path().string()) ||
-      written.size() != keyframes.size()) {
-    throw files::OutputError(file, "not every keyframe was written (is the disk full?)");
-  }
-  target.commit();
+  dataset::write_simple_map(file, keyframes.size(), [&](auto& archive, std::size_t i) {
+    archive << mrpt::poses::CPose3DPDFGaussian(dataset::to_mrpt(T_map_lidar(i)))
+            << *sensory_frame(*keyframes.at(i));
+  });
 }
 
 std::vector<MapKeyframe> read_keyframes(const std::filesystem::path& file) {
-  mrpt::maps::CSimpleMap map;
-  if (!std::filesystem::exists(file) || !map.loadFromFile(file.string()) || map.empty()) {
-    throw files::InputError(file, files::Place::whole_file(), "an MRPT simple map with keyframes",
-                            "none that MRPT can read");
-  }
   std::vector<MapKeyframe> keyframes;
-  for (std::size_t i = 0; i < map.size(); ++i) {
-    mrpt::poses::CPose3DPDF::Ptr pose;
-    mrpt::obs::CSensoryFrame::Ptr frame;
-    map.get(i, pose, frame);
+  dataset::for_each_keyframe(file, [&](std::size_t i, const auto& pose, const auto& frame) {
     MapKeyframe keyframe;
-    const mrpt::maps::CPointsMap& points = cloud(*frame, kMapPoints, file, i);
-    const lidar::voxel::SweepPoints all = sweep_points(points);
     keyframe.content.id = i;
-    keyframe.content.points.x = all.x;
-    keyframe.content.points.y = all.y;
-    keyframe.content.points.z = all.z;
-    keyframe.content.features.surface = sweep_points(cloud(*frame, kSurfacePoints, file, i));
-    keyframe.content.features.edges = sweep_points(cloud(*frame, kEdgePoints, file, i));
-    const auto stamp = dataset::to_stamp(frame->getObservationBySensorLabel(kMapPoints)->timestamp);
+    keyframe.content.points = map_points(cloud(frame, kMapPoints, file, i));
+    keyframe.content.features.surface = sweep_points(cloud(frame, kSurfacePoints, file, i));
+    keyframe.content.features.edges = sweep_points(cloud(frame, kEdgePoints, file, i));
+    const auto stamp = dataset::to_stamp(frame.getObservationBySensorLabel(kMapPoints)->timestamp);
     keyframe.stamp = stamp.value_or(geometry::Stamp{});
     keyframe.content.stamp = keyframe.stamp;
-    keyframe.T_map_lidar = dataset::to_pose(pose->getMeanVal());
+    keyframe.T_map_lidar = dataset::to_pose(pose.getMeanVal());
     keyframe.content.T_odom_lidar = keyframe.T_map_lidar;
     keyframes.push_back(std::move(keyframe));
+  });
+  if (keyframes.empty()) {
+    throw files::InputError(file, files::Place::whole_file(), "an MRPT simple map with keyframes",
+                            "none");
   }
   return keyframes;
 }

@@ -10,6 +10,8 @@
 #include "traverse/geometry/so3.hpp"
 #include "traverse/geometry/voxel.hpp"
 #include "traverse/lidar/voxel/local_points.hpp"
+#include "traverse/sensors/rings.hpp"
+#include "traverse/sensors/sweep_timing.hpp"
 
 #include "voxel/workers.hpp"
 
@@ -30,10 +32,12 @@ double weakest_information(const lidar::RegistrationHealth& health) {
 }
 
 KeyframePoints thinned(const sensors::LidarScan& scan, const lidar::CorrectedScan& used,
-                       double intensity_full_scale, double cube_m) {
+                       const sensors::LidarProfile& profile, double cube_m) {
   KeyframePoints points;
   tsl::robin_set<std::uint64_t, geometry::VoxelHash> occupied;
-  const auto intensity_scale = static_cast<float>(1 / intensity_full_scale);
+  const auto intensity_scale = static_cast<float>(1 / profile.intensity_full_scale);
+  const sensors::PointClock clock(scan, profile);
+  const std::vector<std::uint16_t> rings = sensors::rings_if_known(scan, profile);
   for (std::size_t i = 0; i < used.x.size(); ++i) {
     const Eigen::Vector3d p(used.x[i], used.y[i], used.z[i]);
     if (!occupied.insert(geometry::voxel_key(p, cube_m)).second) continue;
@@ -44,8 +48,8 @@ KeyframePoints thinned(const sensors::LidarScan& scan, const lidar::CorrectedSca
     if (!scan.intensity.empty()) {
       points.intensity.push_back(scan.intensity[source] * intensity_scale);
     }
-    if (!scan.time.empty()) points.time.push_back(scan.time[source]);
-    if (!scan.ring.empty()) points.ring.push_back(scan.ring[source]);
+    if (clock.knows()) points.time.push_back(clock(source));
+    if (!rings.empty()) points.ring.push_back(rings[source]);
   }
   return points;
 }
@@ -105,7 +109,7 @@ Keyframe KeyframeMaker::make(const lidar::Frame& frame, const sensors::LidarScan
   keyframe.id = made_++;
   keyframe.stamp = frame.stamp;
   keyframe.T_odom_lidar = frame.T_map_lidar;
-  keyframe.points = thinned(scan, points, profile_.intensity_full_scale, options_.cube_m);
+  keyframe.points = thinned(scan, points, profile_, options_.cube_m);
   keyframe.features = deskewed(sample_sweep(scan, profile_, options_.sampling, alone),
                                deskewed_by_velocity ? frame.velocity : geometry::Twist::Zero());
   keyframe.health = frame.health;

@@ -3,13 +3,9 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
-#include <span>
-#include <string>
-
-#include <Eigen/Core>
 
 #include "traverse/geometry/pose3.hpp"
-#include "traverse/geometry/stamp.hpp"
+#include "traverse/mapping/map_keyframe.hpp"
 
 namespace traverse::mapping {
 
@@ -20,10 +16,12 @@ struct KeyframeMapOptions {
 };
 
 /// Scans along the way with their poses, as an MRPT simple map (mrpt::maps::CSimpleMap) from which
-/// MRPT's programs build metric maps of any kind.
+/// MRPT's programs build metric maps of any kind. Keyframes wait on disk for the file to be
+/// written.
 class KeyframeMap {
  public:
-  explicit KeyframeMap(const KeyframeMapOptions& options);
+  /// \param scratch a folder with room for them; nothing is left there
+  KeyframeMap(const KeyframeMapOptions& options, const std::filesystem::path& scratch);
   KeyframeMap(KeyframeMap&&) noexcept;
   KeyframeMap& operator=(KeyframeMap&&) noexcept;
   ~KeyframeMap();
@@ -31,12 +29,8 @@ class KeyframeMap {
   /// Whether a scan at this pose would become a keyframe.
   bool wants(const geometry::Pose3& T_map_body) const;
 
-  /// Adds a keyframe. Points in the body frame, metres; intensity 0..1, one a point or empty.
-  /// \param p_body_sensor where the rays to the points start, body frame
-  void add(geometry::Stamp stamp, const std::string& sensor, std::span<const float> x,
-           std::span<const float> y, std::span<const float> z, std::span<const float> intensity,
-           const geometry::Pose3& T_map_body,
-           const Eigen::Vector3d& p_body_sensor = Eigen::Vector3d::Zero());
+  /// Adds a keyframe. \throws files::OutputError if it cannot be put on disk
+  void add(const MapKeyframe& keyframe);
 
   std::size_t size() const;
 

@@ -29,7 +29,7 @@ struct MapFolder {
 
 struct MapOptions {
   double voxel_m = 0.1;       ///< of the points of map.ply
-  bool attributes = false;    ///< time and keyframe beside them
+  bool attributes = false;    ///< time, ring and keyframe beside them
   bool remove_moving = true;  ///< points in free space are left out everywhere
   bool with_grid = true;
   FreeSpaceOptions free_space;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -20,6 +21,8 @@ struct MapKeyframe {
   Eigen::Vector3d p_body_sensor = Eigen::Vector3d::Zero();  ///< where its rays start, body frame
   std::vector<float> x, y, z;                               ///< metres, body frame
   std::vector<float> intensity;                             ///< 0 .. 1; empty, or one a point
+  std::vector<float> time;          ///< seconds after the stamp; empty, or one a point
+  std::vector<std::uint16_t> ring;  ///< as the recording counts them; empty, or one a point
 
   std::size_t size() const { return x.size(); }
   Eigen::Vector3d p_body(std::size_t i) const { return {x[i], y[i], z[i]}; }

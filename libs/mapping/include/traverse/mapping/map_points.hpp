@@ -14,8 +14,11 @@ namespace traverse::mapping {
 struct MapPoints {
   std::vector<float> x, y, z;           ///< metres, map frame
   std::vector<float> intensity;         ///< 0 .. 1
-  std::vector<double> time;             ///< stamp of the keyframe that saw it, seconds
+  std::vector<double> time;             ///< when it was seen, seconds
+  std::vector<std::uint16_t> ring;      ///< as the recording counts them; kNoRing
   std::vector<std::uint32_t> keyframe;  ///< number of that keyframe, from 0
+
+  static constexpr std::uint16_t kNoRing = 0xffff;  ///< the keyframe does not know
 
   std::size_t size() const { return x.size(); }
 };
@@ -23,7 +26,8 @@ struct MapPoints {
 /// \param voxel_m of the points in a cube of this edge the first is kept
 MapPoints map_points(std::span<const MapKeyframe> keyframes, double voxel_m);
 
-/// As binary PLY: x, y, z, intensity, and with attributes also time (double) and keyframe (uint).
+/// As binary PLY: x, y, z, intensity, and with attributes also time (double), ring (ushort; where
+/// any is known) and keyframe (uint).
 /// \throws files::OutputError
 void write_ply(const std::filesystem::path& file, const MapPoints& points, bool with_attributes);
 

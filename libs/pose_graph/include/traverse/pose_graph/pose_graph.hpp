@@ -61,6 +61,10 @@ struct Level {
   double sigma_rad = 0;
 
   double angle_rad = 0;  ///< between the solved and the measured up
+  double chi2 = 0;       ///< 2 degrees of freedom
+  double weight = 1;     ///< as of Edge
+
+  bool is_rejected() const { return weight < 0.25; }
 };
 
 /// Outcome of one optimisation.
@@ -75,6 +79,8 @@ struct Result {
   std::size_t rejected_loops = 0;
   std::size_t fixes = 0;
   std::size_t rejected_fixes = 0;
+  std::size_t levels = 0;
+  std::size_t rejected_levels = 0;
   bool is_georeferenced = false;  ///< the map frame is ENU
 };
 
@@ -83,9 +89,10 @@ struct Result {
 ///
 /// The map frame is that of the first node, which is held still; as soon as GNSS fixes are spread
 /// out far enough to orient the graph it is ENU instead, and no node is held. Up in a map frame
-/// that is not ENU is unknown and estimated with the poses.
+/// that is not ENU is unknown and estimated with the poses. So is what all measured ups are off by,
+/// in the body: an accelerometer's bias and how it is mounted.
 ///
-/// Loops and fixes are robust by dynamic covariance scaling (Agarwal et al., "Robust map
+/// Loops, fixes and ups are robust by dynamic covariance scaling (Agarwal et al., "Robust map
 /// optimization using dynamic covariance scaling", ICRA 2013): full weight up to a bound on the
 /// chi-square, 4 B^2 / (B + chi2)^2 beyond. By itself that rejects true loops after much drift,
 /// because they contradict odometry's first guess as much as false ones do; so the bound begins at
@@ -138,6 +145,8 @@ class PoseGraph {
   bool is_georeferenced() const { return is_georeferenced_; }
   /// Up in the map frame; nothing without gravity or ENU.
   std::optional<Eigen::Vector3d> up_map() const;
+  /// What all measured ups are off by, body frame, of a unit vector.
+  const Eigen::Vector3d& up_offset() const { return up_offset_; }
 
  private:
   std::size_t index(NodeId id) const;
@@ -161,7 +170,9 @@ class PoseGraph {
   std::size_t solved_nodes_ = 0;  ///< how many the last solution has
   std::size_t judged_edges_ = 0;  ///< how many it has given a weight
   std::size_t judged_fixes_ = 0;
+  std::size_t judged_levels_ = 0;
   Eigen::Vector3d up_map_ = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d up_offset_ = Eigen::Vector3d::Zero();
   bool is_georeferenced_ = false;
 };
 

@@ -28,10 +28,13 @@ Residual<3> antenna_residual(const Eigen::Vector3d& antenna_map_measured,
                              const Eigen::Vector3d& antenna_body, const geometry::Pose3& T_map_body,
                              PoseJacobian<3>* dr_dx = nullptr);
 
-/// Where up is, seen from the body, less where it was measured: R' u - u_m. Its norm is the chord
-/// of the angle between the two [rad, for small ones]. \param up_map, up_body_measured unit vectors
+/// Where up is, seen from the body with an instrument that is off by b, less where it was measured:
+/// R' u + b - u_m. Its norm is the chord of the angle between the two [rad, for small ones]. The
+/// derivative by b is the identity. \param up_map, up_body_measured unit vectors
+/// \param offset_body b: an accelerometer's bias in units of gravity, and how it is mounted
 Residual<3> gravity_residual(const Eigen::Vector3d& up_body_measured,
                              const geometry::Pose3& T_map_body, const Eigen::Vector3d& up_map,
-                             PoseJacobian<3>* dr_dx = nullptr, Eigen::Matrix3d* dr_dup = nullptr);
+                             const Eigen::Vector3d& offset_body, PoseJacobian<3>* dr_dx = nullptr,
+                             Eigen::Matrix3d* dr_dup = nullptr);
 
 }  // namespace traverse::pose_graph

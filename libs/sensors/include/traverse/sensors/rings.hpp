@@ -28,4 +28,7 @@ struct RingAssignment {
 /// \throws NoRings if the source asked for is not there (no stored rings, no elevation table).
 RingAssignment assign_rings(const LidarScan& scan, const LidarProfile& profile);
 
+/// The ring number of every point; empty where they cannot be known.
+std::vector<std::uint16_t> rings_if_known(const LidarScan& scan, const LidarProfile& profile);
+
 }  // namespace traverse::sensors

@@ -20,7 +20,7 @@ struct KeyframePoints {
   std::vector<float> x, y, z;       ///< metres, lidar frame at the stamp
   std::vector<float> intensity;     ///< 0 .. 1; empty, or one a point
   std::vector<float> time;          ///< seconds after the stamp; empty, or one a point
-  std::vector<std::uint16_t> ring;  ///< from the lowest; empty, or one a point
+  std::vector<std::uint16_t> ring;  ///< as the recording counts them; empty, or one a point
 
   std::size_t size() const { return x.size(); }
 };

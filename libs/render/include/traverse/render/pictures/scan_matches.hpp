@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "traverse/geometry/trajectory.hpp"
@@ -10,19 +11,25 @@
 
 namespace traverse::render {
 
-/// A scan under its estimated pose, and those of its points that were registered on lines and
-/// planes of a map.
-struct RegisteredScan {
-  MapPoints scan;
-  MapPoints matches;
+/// Points of a scan that were registered on lines of a map, or on planes.
+struct Matches {
+  MapPoints points;
   /// One a match, metres: from the nearest point of the line or plane to the scan's point.
   std::span<const float> offset_x, offset_y, offset_z;
+
+  std::size_t size() const { return points.x.size(); }
 };
 
-/// From above, true to scale: the scan in grey, its matches coloured by the size of their residual,
-/// each with its residual as a line many times as long, so that a pull to one side is seen. Holds
-/// what lies within 50 m of the middle of `way` (T_map_body), which is drawn in it.
-/// \throws std::invalid_argument if the arrays do not agree in size.
+/// A scan under its estimated pose, and those of its points that were registered.
+struct RegisteredScan {
+  MapPoints scan;
+  Matches on_lines, on_planes;
+};
+
+/// From above, true to scale: the scan in grey, its matches in the colours of the features that
+/// lines and planes are found by, each with its residual as a line many times as long, so that a
+/// pull to one side is seen. Holds what lies within 50 m of the middle of `way` (T_map_body), which
+/// is drawn in it. \throws std::invalid_argument if the arrays do not agree in size.
 Drawing scan_matches(const RegisteredScan& registered, const geometry::Trajectory& way,
                      const Caption& caption, const Style& style);
 
