@@ -1,5 +1,9 @@
 #include "traverse/slam/localizer.hpp"
 
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "slam/made_drive.hpp"
@@ -45,6 +49,15 @@ class InAMap : public ::testing::Test {
         .norm();
   }
   static Localizer localizer() { return {map_, {}, {}}; }
+  /// Nothing of the map is to be seen.
+  static Keyframe blank(std::size_t k) {
+    Keyframe empty = scan(k);
+    empty.points = {};
+    empty.features.planar = {};
+    empty.features.edges = {};
+    return empty;
+  }
+  static const std::vector<MapKeyframe>& map() { return map_; }
   static const MadeDrive& drive() { return *drive_; }
 
  private:
@@ -82,17 +95,47 @@ TEST_F(InAMap, LosingTheMapIsNoticed) {
   Localizer localizer = InAMap::localizer();
   localizer.start_at(drive().frames()[5].T_truth);
   ASSERT_TRUE(localizer.locate(scan(5)).located);
-  Keyframe elsewhere = scan(5);  // an empty place: nothing of the map is there
-  elsewhere.features.planar = {};
-  elsewhere.features.edges = {};
   int scans = 0;
-  while (localizer.locate(elsewhere).located) {
+  Localizer::Fix fix = localizer.locate(blank(5));
+  for (; fix.located; fix = localizer.locate(blank(5))) {
+    EXPECT_FALSE(fix.fits());
     ASSERT_LT(++scans, 20);
   }
   EXPECT_EQ(scans, LocalizerOptions{}.lost_after - 1);
+  EXPECT_EQ(fix.verdict, PlaceVerdict::kNotRegistered);
+  EXPECT_TRUE(localizer.is_searching());
   // And it is found again when it is there again.
   localizer.locate(scan(6));
   EXPECT_TRUE(localizer.locate(scan(7)).located || localizer.locate(scan(8)).located);
+}
+
+TEST_F(InAMap, AScanThatFitsNowhereDoesNotUndoWhatOneBeforeSaid) {
+  Localizer localizer = InAMap::localizer();
+  const auto first = localizer.locate(scan(5));
+  EXPECT_FALSE(first.located) << "one scan alone proves nothing";
+  EXPECT_EQ(first.verdict, PlaceVerdict::kAlone);
+  EXPECT_FALSE(localizer.locate(blank(6)).located);
+  const auto fix = localizer.locate(scan(7));
+  ASSERT_TRUE(fix.located);
+  EXPECT_LT(error_m(fix, 7), 0.05);
+}
+
+TEST_F(InAMap, TwoPlacesThatLookTheSameAreNotTakenForOneAnother) {
+  std::vector<MapKeyframe> twice = map();
+  for (MapKeyframe keyframe : map()) {
+    keyframe.T_map_lidar.translation += Eigen::Vector3d(0, 500, 0);
+    twice.push_back(std::move(keyframe));
+  }
+  Localizer localizer(std::move(twice), {}, {});
+  for (std::size_t k = 4; k < 8; ++k) {
+    const auto fix = localizer.locate(scan(k));
+    EXPECT_FALSE(fix.located) << k;
+    EXPECT_EQ(fix.verdict, PlaceVerdict::kNotDistinct) << k;
+  }
+}
+
+TEST_F(InAMap, AMapWithoutKeyframesIsNone) {
+  EXPECT_THROW(Localizer({}, {}, {}), std::invalid_argument);
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ namespace {
 
 constexpr const char* kMapPoints = "map points";
 constexpr const char* kSurfacePoints = "surface points";
+constexpr const char* kPlanarPoints = "planar points";
 constexpr const char* kEdgePoints = "edge points";
 
 std::string comment_of(const Keyframe& keyframe) {
@@ -108,6 +109,7 @@ void write_keyframes(const std::filesystem::path& file, const KeyframeStore& key
     auto frame = mrpt::obs::CSensoryFrame::Create();
     frame->insert(observation(kMapPoints, keyframe->stamp, with_intensity(keyframe->points)));
     frame->insert(observation(kSurfacePoints, keyframe->stamp, plain(keyframe->features.surface)));
+    frame->insert(observation(kPlanarPoints, keyframe->stamp, plain(keyframe->features.planar)));
     frame->insert(observation(kEdgePoints, keyframe->stamp, plain(keyframe->features.edges)));
     auto comment = mrpt::obs::CObservationComment::Create();
     comment->timestamp = dataset::to_mrpt(keyframe->stamp);
@@ -152,6 +154,7 @@ std::vector<MapKeyframe> read_keyframes(const std::filesystem::path& file) {
     keyframe.content.points.y = all.y;
     keyframe.content.points.z = all.z;
     keyframe.content.features.surface = sweep_points(cloud(*frame, kSurfacePoints, file, i));
+    keyframe.content.features.planar = sweep_points(cloud(*frame, kPlanarPoints, file, i));
     keyframe.content.features.edges = sweep_points(cloud(*frame, kEdgePoints, file, i));
     const auto stamp = dataset::to_stamp(frame->getObservationBySensorLabel(kMapPoints)->timestamp);
     keyframe.stamp = stamp.value_or(geometry::Stamp{});

@@ -12,9 +12,10 @@
 namespace traverse::slam {
 
 /// Writes keyframes as an MRPT simple map, which MRPT's programs open. The pose of each is
-/// T_map_lidar; its sensory frame holds three point clouds in the lidar's frame, "map points" with
-/// intensity, "surface points" and "edge points" (what scans are registered by), and a comment with
-/// the step covariance and the health of the keyframe as JSON.
+/// T_map_lidar; its sensory frame holds four point clouds in the lidar's frame: "map points" with
+/// intensity, "surface points" (what a map of planes is made of), "planar points" and "edge points"
+/// (what a scan is registered by), and a comment with the step covariance and the health of the
+/// keyframe as JSON.
 /// \param T_map_lidar of a keyframe by its id
 /// \throws files::OutputError
 void write_keyframes(const std::filesystem::path& file, const KeyframeStore& keyframes,
