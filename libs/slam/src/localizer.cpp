@@ -47,8 +47,10 @@ void bind(config::Binder& b, LocalizerOptions& o) {
   b.number("agreement_m", o.agreement_m, Range::positive(),
            "two scans tell the same place up to this");
   b.number("agreement_deg", o.agreement_deg, Range::positive(), "and this");
+  b.number("slip_m", o.slip_m, Range::non_negative(),
+           "around odometry's pose, where a scan that does not fit there is searched for");
   b.integer("witnesses_within", o.witnesses_within, Range::between(1, 10000),
-            "scans before, of which one must agree on the place");
+            "scans before that may confirm a place");
   b.integer("lost_after", o.lost_after, Range::between(1, 1e6),
             "scans in a row that do not fit: the place is lost");
 }
@@ -70,7 +72,9 @@ Localizer::Fix Localizer::follow(const Keyframe& scan) {
   Fix fix;
   fix.keyframe = nearest.number;
   if (nearest.distance <= reach_m_) {
-    const MapPlaces::Fit fit = map_.fit(guess, {}, scan.features);
+    MapPlaces::Fit fit = map_.fit(guess, {}, scan.features);
+    // Odometry may have slipped; the map tells where to.
+    if (!fit.fits()) fit = map_.fit(guess, {search_.slip_m, sector_rad_}, scan.features);
     fix = told(fit);
     if (fix.fits()) {
       T_map_odom_ = (fit.T_map_lidar * scan.T_odom_lidar.inverse()).orthonormalised();
@@ -106,8 +110,6 @@ Localizer::Fix Localizer::find(const Keyframe& scan) {
   const bool is_given = start_.has_value();
   const std::vector<MapPlaces::Fit> fits = search(scan);
   start_.reset();  // one that does not fit is not tried twice: the vehicle has moved on
-  told_.emplace_back();
-  if (told_.size() > static_cast<std::size_t>(search_.witnesses_within) + 1) told_.pop_front();
   const auto best = std::max_element(
       fits.begin(), fits.end(), [](const MapPlaces::Fit& a, const MapPlaces::Fit& b) {
         return std::pair(a.fits(), a.found.support) < std::pair(b.fits(), b.found.support);
@@ -116,21 +118,17 @@ Localizer::Fix Localizer::find(const Keyframe& scan) {
   Fix fix = told(*best);
   if (!fix.fits()) return fix;
 
-  const double rival = search_.most_rival * static_cast<double>(best->found.support);
-  const bool is_distinct = std::all_of(fits.begin(), fits.end(), [&](const MapPlaces::Fit& other) {
-    return static_cast<double>(other.found.support) < rival ||
-           agree(other.T_map_lidar, best->T_map_lidar, search_);
-  });
-  if (!is_distinct) {
+  told_.push_back(contenders(*best, fits, scan));
+  if (told_.size() > static_cast<std::size_t>(search_.witnesses_within) + 1) told_.pop_front();
+  if (told_.back().size() > 1) {
     fix.verdict = PlaceVerdict::kNotDistinct;
     return fix;
   }
-  told_.back() = (best->T_map_lidar * scan.T_odom_lidar.inverse()).orthonormalised();
   if (!is_given && !is_confirmed(scan.T_odom_lidar)) {
     fix.verdict = PlaceVerdict::kAlone;
     return fix;
   }
-  T_map_odom_ = *told_.back();
+  T_map_odom_ = told_.back().front().orthonormalised();
   told_.clear();
   misses_ = 0;
   fix.located = true;
@@ -138,19 +136,42 @@ Localizer::Fix Localizer::find(const Keyframe& scan) {
   return fix;
 }
 
-/// Whether another scan tells the place that the latest one does, and no other place is told by as
-/// many.
+/// The best place and those others that are about as good.
+Localizer::Places Localizer::contenders(const MapPlaces::Fit& best,
+                                        const std::vector<MapPlaces::Fit>& fits,
+                                        const Keyframe& scan) const {
+  const geometry::Pose3 T_lidar_odom = scan.T_odom_lidar.inverse();
+  Places places{best.T_map_lidar * T_lidar_odom};
+  const double rival = search_.most_rival * static_cast<double>(best.found.support);
+  for (const MapPlaces::Fit& other : fits) {
+    if (static_cast<double>(other.found.support) < rival) continue;
+    if (agree(other.T_map_lidar, best.T_map_lidar, search_)) continue;
+    places.push_back(other.T_map_lidar * T_lidar_odom);
+  }
+  return places;
+}
+
+/// Whether most of the latest scans, and no less than two, could be at the place of the very
+/// latest, and no other place could be that of as many.
 bool Localizer::is_confirmed(const geometry::Pose3& T_odom_lidar) const {
-  const auto scans_for = [&](const geometry::Pose3& T_map_odom) {
-    return std::count_if(told_.begin(), told_.end(), [&](const auto& other) {
-      return other && agree(*other * T_odom_lidar, T_map_odom * T_odom_lidar, search_);
-    });
+  const auto is_there = [&](const geometry::Pose3& a, const geometry::Pose3& b) {
+    return agree(a * T_odom_lidar, b * T_odom_lidar, search_);
   };
-  const auto most = scans_for(*told_.back());
-  return most >= 2 && std::all_of(told_.begin(), told_.end(), [&](const auto& other) {
-           return !other || agree(*other * T_odom_lidar, *told_.back() * T_odom_lidar, search_) ||
-                  scans_for(*other) < most;
-         });
+  const auto scans_for = [&](const geometry::Pose3& place) {
+    return static_cast<std::size_t>(
+        std::count_if(told_.begin(), told_.end(), [&](const Places& places) {
+          return std::any_of(places.begin(), places.end(),
+                             [&](const geometry::Pose3& other) { return is_there(place, other); });
+        }));
+  };
+  const geometry::Pose3& place = told_.back().front();
+  const std::size_t votes = scans_for(place);
+  if (votes < 2 || 2 * votes <= told_.size()) return false;
+  return std::all_of(told_.begin(), told_.end(), [&](const Places& places) {
+    return std::all_of(places.begin(), places.end(), [&](const geometry::Pose3& other) {
+      return is_there(place, other) || scans_for(other) < votes;
+    });
+  });
 }
 
 }  // namespace traverse::slam

@@ -17,11 +17,12 @@ struct LocalizerOptions {
   int places = 6;              ///< of those most alike that a scan is registered at
   double search_radius_m = 4;  ///< around each, and around a given start
   double search_half_turn_deg = 15;  ///< around a given start
+  double slip_m = 1;                 ///< around odometry's pose, when a scan does not fit there
   PlaceChecks checks;
   double most_rival = 0.8;   ///< support of the next best place, as a share of the best one's
   double agreement_m = 0.3;  ///< two scans tell the same place up to this
   double agreement_deg = 1;
-  int witnesses_within = 10;  ///< scans before, of which one must have been found at the same place
+  int witnesses_within = 10;  ///< scans before that may confirm a place
   int lost_after = 5;         ///< scans in a row that do not fit the map: the place is lost
 };
 void bind(config::Binder& binder, LocalizerOptions& options);
@@ -32,8 +33,9 @@ void bind(config::Binder& binder, LocalizerOptions& options);
 /// Without a start, and when the place is lost, a scan is registered wherever the map looks like it
 /// (Scan Context). Places resemble each other, so the best one counts only if it stands out from
 /// the next best (the ratio test of Lowe, "Distinctive image features from scale-invariant
-/// keypoints", IJCV 2004, section 7.1, here on matches), and only when another scan confirms it:
-/// scans that are wrong have no reason to agree on where odometry began. A value: copies are
+/// keypoints", IJCV 2004, section 7.1, here on matches), and only when other scans confirm it:
+/// scans that are wrong have no reason to agree on where odometry began. Scans of which nothing
+/// stands out do not vote for one place but for all those that it could be. A value: copies are
 /// independent and share the map.
 class Localizer {
  public:
@@ -63,9 +65,13 @@ class Localizer {
   Fix locate(const Keyframe& scan);
 
  private:
+  using Places = std::vector<geometry::Pose3>;  ///< T_map_odom, the best first
+
   Fix follow(const Keyframe& scan);
   Fix find(const Keyframe& scan);
   std::vector<MapPlaces::Fit> search(const Keyframe& scan);
+  Places contenders(const MapPlaces::Fit& best, const std::vector<MapPlaces::Fit>& fits,
+                    const Keyframe& scan) const;
   bool is_confirmed(const geometry::Pose3& T_odom_lidar) const;
 
   double reach_m_;
@@ -74,8 +80,7 @@ class Localizer {
   MapPlaces map_;
   std::optional<geometry::Pose3> start_;
   std::optional<geometry::Pose3> T_map_odom_;  ///< nothing: the place is not known
-  /// T_map_odom by the latest scans, those that stood out somewhere.
-  std::deque<std::optional<geometry::Pose3>> told_;
+  std::deque<Places> told_;                    ///< by the latest scans that fit somewhere
   int misses_ = 0;
 };
 
