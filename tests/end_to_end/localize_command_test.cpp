@@ -80,16 +80,16 @@ TEST_F(LocalizeCommand, ADriveOfAnotherDayIsFoundAndItsPosesAreInTheMap) {
 }
 
 TEST_F(LocalizeCommand, LeavingTheMapIsSaidWithItsReason) {
-  const ProgramResult result = localize("other_day", "--first 8");
+  const ProgramResult result = localize("other_day", "--first 20 --last 65");
   ASSERT_EQ(result.status, 0) << result.messages;
   EXPECT_THAT(place(), AllOf(HasSubstr("found in frame"), HasSubstr("lost in frame")));
 }
 
 TEST_F(LocalizeCommand, AnotherPlaceIsNotFoundAndTheErrorSaysWhatWasTried) {
-  simulate("elsewhere", "--first 40 --duration 1.5 --seed 9");
-  const ProgramResult result = localize("elsewhere", "");
+  simulate("elsewhere", "--first 40 --duration 0.6 --seed 9");
+  const ProgramResult result = localize("elsewhere", "--last 5");
   EXPECT_EQ(result.status, 1);
-  EXPECT_THAT(result.messages, AllOf(HasSubstr("none of 15 scans was found"),
+  EXPECT_THAT(result.messages, AllOf(HasSubstr("none of 6 scans was found"),
                                      HasSubstr("little in common"), HasSubstr("another place")));
 }
 

@@ -13,8 +13,8 @@
 namespace traverse::slam {
 
 struct LocalizerOptions {
-  int ring_keys = 50;          ///< nearest ring keys whose contexts the global search compares
-  int places = 6;              ///< of those most alike that a scan is registered at
+  int ring_keys = 200;         ///< nearest ring keys whose contexts the global search compares
+  int places = 12;             ///< of those most alike that a scan is registered at: rivals, too
   double search_radius_m = 4;  ///< around each, and around a given start
   double search_half_turn_deg = 15;  ///< around a given start
   double slip_m = 1;                 ///< around odometry's pose, when a scan does not fit there
