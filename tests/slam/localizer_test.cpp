@@ -134,6 +134,33 @@ TEST_F(InAMap, TwoPlacesThatLookTheSameAreNotTakenForOneAnother) {
   }
 }
 
+TEST_F(InAMap, AScanThatHasLittleInCommonDoesNotFit) {
+  Localizer localizer = InAMap::localizer();
+  localizer.start_at(drive().frames()[5].T_truth);
+  const auto as_mapped = localizer.locate(scan(5));
+  EXPECT_GT(as_mapped.in_common, 0.7);
+  Keyframe changed = scan(6);  // of every five points, three are elsewhere today
+  for (auto* points : {&changed.features.planar, &changed.features.edges}) {
+    for (std::size_t i = 0; i < points->size(); ++i) points->z[i] += i % 5 < 3 ? 30.0F : 0.0F;
+  }
+  const auto fix = localizer.locate(changed);
+  EXPECT_EQ(fix.verdict, PlaceVerdict::kLittleInCommon);
+  EXPECT_LT(fix.in_common, 0.6);
+  EXPECT_TRUE(fix.located) << "odometry carries the pose on";
+}
+
+TEST_F(InAMap, ASlipOfOdometryIsMended) {
+  Localizer localizer = InAMap::localizer();
+  localizer.start_at(drive().frames()[5].T_truth);
+  ASSERT_TRUE(localizer.locate(scan(5)).located);
+  Keyframe slipped = scan(6);
+  slipped.T_odom_lidar.translation += Eigen::Vector3d(0.7, 0.7, 0);
+  const auto fix = localizer.locate(slipped);
+  ASSERT_TRUE(fix.fits());
+  const geometry::Pose3 placed = fix.T_map_odom * slipped.T_odom_lidar;
+  EXPECT_LT((placed.translation - drive().frames()[6].T_truth.translation).norm(), 0.05);
+}
+
 TEST_F(InAMap, AMapWithoutKeyframesIsNone) {
   EXPECT_THROW(Localizer({}, {}, {}), std::invalid_argument);
 }

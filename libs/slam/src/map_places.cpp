@@ -15,6 +15,7 @@ constexpr std::size_t kSubmapsKept = 16;
 /// Points that starts are told apart by: the place that most of them fall into is the same as with
 /// all of a scan's.
 constexpr std::size_t kFewPoints = 500;
+constexpr double kSpacingOfRegion = 0.5;  ///< of the starts at most, shares of the radius
 
 std::array<float, 3> as_place(const Eigen::Vector3d& p) {
   return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
@@ -128,7 +129,10 @@ MapPlaces::Fit MapPlaces::fit(const geometry::Pose3& guess_T_map_lidar, const Se
   const auto around = surroundings(nearest(guess_T_map_lidar.translation).number);
   const Submap& submap = around->submap;
   const geometry::Pose3& T_map_centre = map_->keyframes[submap.centre].T_map_lidar;
-  const LoopRegistrationOptions& how = options_.registration;
+  LoopRegistrationOptions how = options_.registration;
+  if (region.radius_m > 0) {
+    how.start_spacing_m = std::min(how.start_spacing_m, region.radius_m * kSpacingOfRegion);
+  }
   auto starts = starts_around(T_map_centre.inverse() * guess_T_map_lidar, region, how);
   if (starts.size() > 1) {
     starts = {register_in(submap, few_of(features), starts, how).T_centre_lidar};
