@@ -45,6 +45,7 @@ struct SimulateArguments {
   std::size_t last = std::numeric_limits<std::size_t>::max();
   std::optional<double> duration_s;
   std::optional<std::int64_t> seed;
+  std::optional<std::int64_t> drive_seed;
   std::vector<std::string> overrides;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   int gzip_level = 0;
@@ -55,6 +56,7 @@ constexpr const char* kExamples = R"(Examples:
   traverse simulate town_loop -o town.rawlog && traverse run town.rawlog -o RUN
   traverse simulate park -o park.rawlog --sensor vlp16 --duration 20
   traverse simulate town_loop -o sequence --format kitti --seed 4 --set place.vehicles=6
+  traverse simulate town_loop -o other_day.rawlog --drive-seed 100
   traverse simulate highway -o fast.rawlog --set route.speed_mps=36 --set imu.rate_hz=200
 
 Beside X.rawlog stand X.traverse.yaml (what holds of it), X.reference.tum (the exact poses),
@@ -169,6 +171,9 @@ simulation::WorldDescription chosen_world(const SimulateArguments& arguments,
                                           const fs::path& share) {
   std::vector<std::string> overrides = arguments.overrides;
   if (arguments.seed) overrides.push_back(fmt::format("seed={}", *arguments.seed));
+  if (arguments.drive_seed) {
+    overrides.push_back(fmt::format("drive_seed={}", *arguments.drive_seed));
+  }
   if (!arguments.sensor.empty()) overrides.push_back("sensor=" + arguments.sensor);
   return simulation::load_world(simulation::find_world(arguments.world, share), overrides);
 }
@@ -260,6 +265,12 @@ CLI::App* declare(CLI::App& app, const std::shared_ptr<SimulateArguments>& argum
       ->check(CLI::PositiveNumber)
       ->option_text("S");
   command->add_option("--seed", arguments->seed, "of the place, the road and all noise")
+      ->check(CLI::NonNegativeNumber)
+      ->option_text("N");
+  command
+      ->add_option("--drive-seed", arguments->drive_seed,
+                   "of another drive through the same place: noise, traffic, parked cars, the "
+                   "driver's line and pace")
       ->check(CLI::NonNegativeNumber)
       ->option_text("N");
   command->add_option("--set", arguments->overrides, "any key of the world: place.vehicles=6")

@@ -80,6 +80,8 @@ TEST(SimulateCommand, TheSameSeedGivesTheSameBytesForAnyNumberOfThreads) {
   const std::string one = bytes("a.rawlog", "--threads 1");
   EXPECT_EQ(one, bytes("b.rawlog", "--threads 3"));
   EXPECT_NE(one, bytes("c.rawlog", "--seed 2"));
+  EXPECT_EQ(one, bytes("d.rawlog", "--drive-seed 17")) << "17 is the world's seed";
+  EXPECT_NE(one, bytes("e.rawlog", "--drive-seed 18"));
 }
 
 TEST(SimulateCommand, WhatItWroteOfTheWorldSimulatesTheSameAgain) {

@@ -104,6 +104,44 @@ TEST(Simulation, ThereIsATruePoseForEverySample) {
   for (std::size_t i = 1; i < truth.size(); ++i) EXPECT_LT(truth.stamp(i - 1), truth.stamp(i));
 }
 
+TEST(Simulation, TheOwnDriveByItsSeedIsTheDriveOfAWorldThatNamesNone) {
+  const auto scan = [](const Simulation& simulation) { return simulation.lidar().scan(30); };
+  const sensors::LidarScan own = scan(corridor());
+  EXPECT_EQ(own.x, scan(corridor({"drive_seed=17"})).x) << "17 is the world's seed";
+  EXPECT_NE(own.x, scan(corridor({"drive_seed=18"})).x);
+}
+
+TEST(Simulation, AnotherDriveSeesTheSamePlaceWithOtherNoiseFromAnotherLine) {
+  const Simulation own = corridor({"place.pedestrians=2"});
+  const Simulation other = corridor({"place.pedestrians=2", "drive_seed=18"});
+  const auto imu_of = [](const Simulation& simulation) {
+    for (const Measurement& m : run(simulation, {3, 4}, 1)) {
+      if (const auto* sample = std::get_if<sensors::ImuSample>(&m)) return *sample;
+    }
+    return sensors::ImuSample{};
+  };
+  EXPECT_NE(imu_of(own).angular_rate, imu_of(other).angular_rate);
+  EXPECT_NE(own.motion().duration_s(), other.motion().duration_s()) << "its pace";
+  EXPECT_NE(own.calibration(), other.calibration()) << "biases of the IMU";
+
+  // What it sees while it stands lies on what was built for the first drive.
+  const WorldDescription& world = own.world();
+  const Route route(world.route);
+  const Place built = build_place(world.place, route, Terrain(world.terrain, 17), 17);
+  const RayCaster walls(built.still);
+  const geometry::Pose3 T_map_lidar =
+      other.motion().state(0.4).T_map_body * world.lidar.T_body_sensor();
+  const sensors::LidarScan scan = other.lidar().scan(3);
+  std::size_t on_walls = 0;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const Eigen::Vector3d p(scan.x[i], scan.y[i], scan.z[i]);
+    const Eigen::Vector3d direction = T_map_lidar.rotation * p.normalized();
+    const auto hit = walls.cast({T_map_lidar.translation, direction}, 2 * p.norm());
+    on_walls += hit.is_hit() && std::abs(hit.distance_m - p.norm()) < 0.1 ? 1 : 0;
+  }
+  EXPECT_GT(static_cast<double>(on_walls), 0.97 * static_cast<double>(scan.size()));
+}
+
 TEST(RingOrder, PointsGoRoundRingAfterRing) {
   const sensors::LidarScan scan = corridor().lidar().scan(12);
   const sensors::LidarScan ordered = in_ring_order(scan);

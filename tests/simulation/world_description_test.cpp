@@ -1,6 +1,9 @@
 #include "traverse/simulation/world_description.hpp"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
+#include <iterator>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -83,24 +86,56 @@ TEST(Place, TheSameSeedBuildsTheSamePlace) {
   }
 }
 
+TEST(Place, AnotherDriveMovesTrafficAndParkedCarsAlone) {
+  const WorldDescription world =
+      load_world(find_world("town_short", TRAVERSE_SHARE_DIR), {"place.vehicles=2"});
+  const Route route(world.route);
+  const Terrain terrain(world.terrain, 1);
+  const auto triangles = [&](const Place& place) {
+    std::vector<std::array<double, 9>> all;
+    for (const auto& corners : place.still.triangles()) {
+      std::array<double, 9> triangle{};
+      for (std::size_t k = 0; k < 9; ++k) {
+        triangle[k] = place.still.corners()[corners[k / 3]][static_cast<Eigen::Index>(k % 3)];
+      }
+      all.push_back(triangle);
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  const Place own = build_place(world.place, route, terrain, 1);
+  const Place other = build_place(world.place, route, terrain, 1, 2);
+  const auto before = triangles(own);
+  const auto after = triangles(other);
+  std::vector<std::array<double, 9>> shared;
+  std::set_intersection(before.begin(), before.end(), after.begin(), after.end(),
+                        std::back_inserter(shared));
+  EXPECT_LT(after.size(), before.size()) << "some cars have left";
+  EXPECT_LT(shared.size(), after.size()) << "some are others";
+  EXPECT_GT(static_cast<double>(shared.size()), 0.9 * static_cast<double>(before.size()));
+  EXPECT_NE(own.movers[0].T_map_mover(0).translation, other.movers[0].T_map_mover(0).translation);
+}
+
 TEST(Place, NothingStandsInTheVehiclesWay) {
   for (const char* name :
        {"town_loop", "town_large", "terrace_loop", "highway", "tunnel", "park", "corridor_loop"}) {
     const WorldDescription world = load_world(find_world(name, TRAVERSE_SHARE_DIR), {});
-    const Route route(world.route);
+    const Route road(world.route);
     const Terrain terrain(world.terrain, static_cast<std::uint64_t>(world.seed));
     const Place place =
-        build_place(world.place, route, terrain, static_cast<std::uint64_t>(world.seed));
+        build_place(world.place, road, terrain, static_cast<std::uint64_t>(world.seed));
     const RayCaster caster(place.still);
     const double half_width = world.place.kind == PlaceKind::kCorridor ? 0.4 : 0.9;
-    for (double s = 1; s < route.lap_m(); s += 1) {
-      const double heading = route.heading(s);
-      const Eigen::Vector3d left(-std::sin(heading), std::cos(heading), 0);
-      const Eigen::Vector2d p = route.point(s);
-      const Eigen::Vector3d middle(p.x(), p.y(), terrain.height(p.x(), p.y()) + 0.8);
-      for (const double side : {-1.0, 1.0}) {
-        EXPECT_FALSE(caster.cast({middle, side * left}, half_width).is_hit())
-            << name << " at " << s << " m";
+    for (const Route& driven : {road, Route(world.route, 1), Route(world.route, 2)}) {
+      for (double s = 1; s < driven.lap_m(); s += 1) {
+        const double heading = driven.heading(s);
+        const Eigen::Vector3d left(-std::sin(heading), std::cos(heading), 0);
+        const Eigen::Vector2d p = driven.point(s);
+        const Eigen::Vector3d middle(p.x(), p.y(), terrain.height(p.x(), p.y()) + 0.8);
+        for (const double side : {-1.0, 1.0}) {
+          EXPECT_FALSE(caster.cast({middle, side * left}, half_width).is_hit())
+              << name << " at " << s << " m";
+        }
       }
     }
   }

@@ -26,9 +26,11 @@ Keyframe made(std::size_t id) {
     keyframe.points.intensity.push_back(0.5F);
     keyframe.points.ring.push_back(static_cast<std::uint16_t>(i));
     keyframe.features.surface.push_back(value, 1, 2, value, 5);
+    keyframe.features.planar.push_back(value, 3, 2, value, 5);
     keyframe.features.edges.push_back(1, value, 2, value, 6);
   }
   keyframe.features.surface.time.resize(100);
+  keyframe.features.planar.time.resize(100);
   keyframe.features.edges.time.resize(100);
   keyframe.features.surface_is_planar.assign(100, 1);
   return keyframe;
@@ -74,6 +76,7 @@ TEST(KeyframeFile, ASimpleMapHoldsPointsFeaturesAndPose) {
   EXPECT_TRUE(read[2].T_map_lidar.translation.isApprox(Eigen::Vector3d(20, 0.5, 0.25)));
   EXPECT_EQ(read[2].content.points.x, made(2).points.x);
   EXPECT_EQ(read[2].content.features.surface.x, made(2).features.surface.x);
+  EXPECT_EQ(read[2].content.features.planar.x, made(2).features.planar.x);
   EXPECT_EQ(read[2].content.features.edges.y, made(2).features.edges.y);
 }
 

@@ -50,7 +50,7 @@ LocalizingEstimator::LocalizingEstimator(std::unique_ptr<LidarEstimator> odometr
       maker_(checks.keyframes, *odometry_->sensor().lidar),
       localizer_(slam::read_keyframes(options.map), checks, options.search),
       columns_(odometry_->columns()) {
-  columns_.insert(columns_.end(), {"located", "fits_map", "map_overlap", "map_residual_rms_m",
+  columns_.insert(columns_.end(), {"located", "fits_map", "map_in_common", "map_residual_rms_m",
                                    "map_keyframe", "localize_ms"});
   if (!options.start.empty()) {
     localizer_.start_at(start_pose(options.start) * odometry_->sensor().T_body_sensor);
@@ -68,7 +68,8 @@ LocalizingEstimator::LocalizingEstimator(const LocalizingEstimator& other)
       T_map_odom_(other.T_map_odom_),
       located_(other.located_),
       frames_(other.frames_),
-      events_(other.events_) {}
+      events_(other.events_),
+      in_vain_(other.in_vain_) {}
 
 std::unique_ptr<Estimator> LocalizingEstimator::clone() const {
   return std::unique_ptr<Estimator>(new LocalizingEstimator(*this));
@@ -83,9 +84,13 @@ std::vector<PoseFrame> LocalizingEstimator::process(const sensors::Measurement& 
 std::vector<PoseFrame> LocalizingEstimator::finish() {
   std::vector<PoseFrame> frames = locate(odometry_->finish());
   if (events_.empty() && frames_ > 0) {
+    std::vector<std::string> reasons;
+    for (const auto& [reason, scans] : in_vain_) {
+      reasons.push_back(fmt::format("{} {}", scans, reason));
+    }
     throw std::runtime_error(fmt::format(
-        "none of {} scans was found in the map {}: another place, or too little in common", frames_,
-        map_file_));
+        "none of {} scans was found in the map {} ({}): another place, or too little in common",
+        frames_, map_file_, fmt::join(reasons, ", ")));
   }
   // Lost for good: odometry carries on from the last known place, and the record says so.
   for (PoseFrame& frame : std::exchange(unplaced_, {})) {
@@ -101,18 +106,18 @@ std::vector<PoseFrame> LocalizingEstimator::locate(std::vector<PoseFrame> frames
     const auto started = std::chrono::steady_clock::now();
     const std::shared_ptr<const sensors::LidarScan> scan = std::move(waiting_.front());
     waiting_.pop_front();
-    const auto points = odometry_->odometry().used_scan(*scan, latest[k].velocity, false);
+    lidar::CorrectedScan points;  // a place is known by them, but not followed
+    if (localizer_.is_searching()) {
+      points = odometry_->odometry().used_scan(*scan, latest[k].velocity, false);
+    }
     const slam::Localizer::Fix fix = localizer_.locate(
         maker_.make(latest[k], *scan, points, odometry_->odometry().deskew_note() == "on"));
-    if (fix.located != located_) {
-      events_.push_back(fmt::format("{} in frame {}", fix.located ? "found" : "lost", frames_));
-    }
-    located_ = fix.located;
+    note(fix);
     ++frames_;
     const double milliseconds = milliseconds_since(started);
     PoseFrame frame = std::move(frames[k]);
     frame.record.insert(frame.record.end(),
-                        {fix.located ? 1.0 : 0.0, fix.fits ? 1.0 : 0.0, fix.overlap,
+                        {fix.located ? 1.0 : 0.0, fix.fits() ? 1.0 : 0.0, fix.in_common,
                          fix.residual_rms_m, static_cast<double>(fix.keyframe), milliseconds});
     frame.milliseconds += milliseconds;
     if (!fix.located) {
@@ -126,6 +131,17 @@ std::vector<PoseFrame> LocalizingEstimator::locate(std::vector<PoseFrame> frames
     told.push_back(placed(std::move(frame), T_map_odom_));
   }
   return told;
+}
+
+void LocalizingEstimator::note(const slam::Localizer::Fix& fix) {
+  if (fix.located && !located_) {
+    events_.push_back(fmt::format("found in frame {}", frames_));
+  } else if (!fix.located && located_) {
+    events_.push_back(fmt::format("lost in frame {} ({})", frames_, name_of(fix.verdict)));
+  } else if (!fix.located) {
+    ++in_vain_[std::string(name_of(fix.verdict))];
+  }
+  located_ = fix.located;
 }
 
 PoseFrame LocalizingEstimator::placed(PoseFrame frame, const geometry::Pose3& T_map_odom) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -47,6 +48,7 @@ class LocalizingEstimator final : public Estimator {
   LocalizingEstimator(const LocalizingEstimator& other);
 
   std::vector<PoseFrame> locate(std::vector<PoseFrame> frames);
+  void note(const slam::Localizer::Fix& fix);
   PoseFrame placed(PoseFrame frame, const geometry::Pose3& T_map_odom) const;
 
   std::unique_ptr<LidarEstimator> odometry_;
@@ -59,7 +61,8 @@ class LocalizingEstimator final : public Estimator {
   geometry::Pose3 T_map_odom_;       ///< the last known
   bool located_ = false;
   std::size_t frames_ = 0;
-  std::vector<std::string> events_;  ///< "found in frame 3", "lost in frame 240"
+  std::vector<std::string> events_;  ///< "found in frame 3", "lost in frame 240 (little in common)"
+  std::map<std::string, std::size_t> in_vain_;  ///< scans that were searched for, by verdict
 };
 
 }  // namespace traverse::pipeline

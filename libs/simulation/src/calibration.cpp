@@ -31,7 +31,7 @@ std::string Simulation::calibration() const {
       "# x ahead, y left, z up; p_body = R(q) p_sensor + t. A sensor reads y = M x + bias + "
       "noise.\n"
       "# The map of the reference is the plane east, north, up at the origin given under gnss.\n";
-  const ImuSimulator imu(world_.imu, motion_, static_cast<std::uint64_t>(world_.seed));
+  const ImuSimulator imu(world_.imu, motion_, seed_of_drive());
   const ImuSimulator::Calibration& errors = imu.calibration();
   for (const sensors::MountedSensor& sensor : rig().sensors) {
     text += place_of(sensor);

@@ -31,8 +31,9 @@ std::uint64_t seed_of(const WorldDescription& world) {
 
 Terrain terrain_of(const WorldDescription& world) { return {world.terrain, seed_of(world)}; }
 
-Place place_of(const WorldDescription& world, const VehicleMotion& motion, std::size_t& triangles) {
-  Place place = build_place(world.place, motion.route(), terrain_of(world), seed_of(world));
+Place place_of(const WorldDescription& world, std::size_t& triangles) {
+  Place place = build_place(world.place, Route(world.route), terrain_of(world), seed_of(world),
+                            other_drive(world));
   triangles = place.still.size();
   return place;
 }
@@ -42,9 +43,13 @@ Place place_of(const WorldDescription& world, const VehicleMotion& motion, std::
 Simulation::Simulation(const WorldDescription& world, const sensors::LidarProfile& lidar)
     : world_(world),
       profile_(lidar),
-      motion_(world.route, world.suspension, terrain_of(world), seed_of(world)),
-      surroundings_(place_of(world, motion_, triangles_)),
-      lidar_(lidar, world.lidar.T_body_sensor(), surroundings_, motion_, seed_of(world)) {}
+      motion_(world.route, world.suspension, terrain_of(world), seed_of(world), other_drive(world)),
+      surroundings_(place_of(world, triangles_)),
+      lidar_(lidar, world.lidar.T_body_sensor(), surroundings_, motion_, seed_of_drive()) {}
+
+std::uint64_t Simulation::seed_of_drive() const {
+  return other_drive(world_).value_or(seed_of(world_));
+}
 
 sensors::Rig Simulation::rig() const {
   sensors::Rig rig;
@@ -102,9 +107,9 @@ geometry::Trajectory Simulation::truth_of_all_sensors(const SweepRange& sweeps) 
 
 void Simulation::run(const SweepRange& sweeps, int threads,
                      const std::function<void(Measurement&&)>& use) const {
-  ImuSimulator imu(world_.imu, motion_, seed_of(world_));
-  WheelSimulator wheels(world_.wheels, motion_, seed_of(world_));
-  GnssSimulator gnss(world_.gnss, surroundings_, motion_, seed_of(world_));
+  ImuSimulator imu(world_.imu, motion_, seed_of_drive());
+  WheelSimulator wheels(world_.wheels, motion_, seed_of_drive());
+  GnssSimulator gnss(world_.gnss, surroundings_, motion_, seed_of_drive());
   const auto finish = [&](auto sample, const char* label, double late_s) {
     sample.sensor = label;
     sample.stamp = stamp_at(sample.stamp.seconds() + late_s);

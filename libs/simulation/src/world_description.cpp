@@ -57,6 +57,8 @@ void bind(config::Binder& b, WorldDescription& w) {
   b.text("description", w.description, "one line");
   b.text("sensor", w.sensor, "the lidar, if the command line names none");
   b.integer("seed", w.seed, Range::between(0, 1e15), "of the place, the road and all noise");
+  b.integer("drive_seed", w.drive_seed, Range::between(-1, 1e15),
+            "of another drive through it: noise, traffic, parked cars, line, pace; -1: its own");
   b.number("start_s", w.start_s, Range::between(0, 4e9), "Unix time of the drive's start");
   group("route", "where the vehicle goes and how fast", w.route);
   group("terrain", "the shape of the ground", w.terrain);
@@ -67,6 +69,11 @@ void bind(config::Binder& b, WorldDescription& w) {
   group("wheels", "the wheels' pulse counters", w.wheels);
   group("gnss", "the satellite receiver", w.gnss);
   group("clock", "by how much stamps are late", w.clock);
+}
+
+std::optional<std::uint64_t> other_drive(const WorldDescription& world) {
+  if (world.drive_seed < 0 || world.drive_seed == world.seed) return std::nullopt;
+  return static_cast<std::uint64_t>(world.drive_seed);
 }
 
 WorldDescription load_world(const fs::path& file, const std::vector<std::string>& overrides) {

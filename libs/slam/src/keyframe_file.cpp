@@ -26,6 +26,7 @@ namespace {
 
 constexpr const char* kMapPoints = "map points";
 constexpr const char* kSurfacePoints = "surface points";
+constexpr const char* kPlanarPoints = "planar points";
 constexpr const char* kEdgePoints = "edge points";
 
 std::string comment_of(const Keyframe& keyframe) {
@@ -80,6 +81,7 @@ mrpt::obs::CSensoryFrame::Ptr sensory_frame(const Keyframe& keyframe) {
   const dataset::PointAttributes attributes{keyframe.points.time, keyframe.points.ring};
   if (!attributes.empty()) frame->insert(dataset::to_observation(attributes, keyframe.stamp));
   frame->insert(observation(kSurfacePoints, keyframe.stamp, plain(keyframe.features.surface)));
+  frame->insert(observation(kPlanarPoints, keyframe.stamp, plain(keyframe.features.planar)));
   frame->insert(observation(kEdgePoints, keyframe.stamp, plain(keyframe.features.edges)));
   auto comment = mrpt::obs::CObservationComment::Create();
   comment->timestamp = dataset::to_mrpt(keyframe.stamp);
@@ -137,6 +139,7 @@ std::vector<MapKeyframe> read_keyframes(const std::filesystem::path& file) {
     keyframe.content.id = i;
     keyframe.content.points = map_points(cloud(frame, kMapPoints, file, i));
     keyframe.content.features.surface = sweep_points(cloud(frame, kSurfacePoints, file, i));
+    keyframe.content.features.planar = sweep_points(cloud(frame, kPlanarPoints, file, i));
     keyframe.content.features.edges = sweep_points(cloud(frame, kEdgePoints, file, i));
     const auto stamp = dataset::to_stamp(frame.getObservationBySensorLabel(kMapPoints)->timestamp);
     keyframe.stamp = stamp.value_or(geometry::Stamp{});

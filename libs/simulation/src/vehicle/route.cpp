@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "rounded_line.hpp"
+#include "wander.hpp"
 
 namespace traverse::simulation {
 
@@ -57,6 +58,8 @@ void bind(config::Binder& b, RouteSettings& s) {
   b.number("stop_s", s.stop_s, Range::between(0, 3600), "how long it halts there");
   b.number("standstill_s", s.standstill_s, Range::between(0, 3600),
            "how long it stands at the start and at the end");
+  b.number("wander_m", s.wander_m, Range::between(0, 5),
+           "the most that another drive (drive_seed) keeps beside this line");
 }
 
 ImpossibleRoute::ImpossibleRoute(std::string k, std::string e, std::string f)
@@ -65,7 +68,7 @@ ImpossibleRoute::ImpossibleRoute(std::string k, std::string e, std::string f)
       expected(std::move(e)),
       found(std::move(f)) {}
 
-Route::Route(const RouteSettings& settings) {
+Route::Route(const RouteSettings& settings, std::optional<std::uint64_t> other_drive) {
   std::vector<Eigen::Vector2d> points = waypoints_of(settings);
   if (!settings.closed) {
     RoundedLine(points, false, settings.corner_radius_m);  // corners must fit without the extension
@@ -83,6 +86,18 @@ Route::Route(const RouteSettings& settings) {
   }
   const auto ends =
       settings.closed ? UniformSpline::Ends::kPeriodic : UniformSpline::Ends::kConstant;
+  if (other_drive) {
+    const Wander wander(line.length(), settings.wander_m, *other_drive);
+    const UniformSpline straight_x(x, step, ends);
+    const UniformSpline straight_y(y, step, ends);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double s = step * static_cast<double>(i);
+      const Eigen::Vector2d ahead =
+          Eigen::Vector2d(straight_x.at(s)[1], straight_y.at(s)[1]).normalized();
+      x[i] -= wander.left_m(s) * ahead.y();
+      y[i] += wander.left_m(s) * ahead.x();
+    }
+  }
   x_ = UniformSpline(std::move(x), step, ends);
   y_ = UniformSpline(std::move(y), step, ends);
 

@@ -21,6 +21,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::size_t kControlEvery = 5;  ///< samples of the speed plan: 0.1 s
+constexpr double kSlowestPace = 0.85;     ///< of other drivers, shares of the route's speed
+constexpr double kFastestPace = 1.1;
 
 /// A damped oscillator that follows a demand, driven step by step.
 class Oscillator {
@@ -55,6 +57,14 @@ JetMatrix pitch_then_roll(const Jet& pitch, const Jet& roll) {
       cos(pitch);
   about_x << Jet(1), Jet(0), Jet(0), Jet(0), cos(roll), -sin(roll), Jet(0), sin(roll), cos(roll);
   return about_y * about_x;
+}
+
+/// The route as another driver takes it.
+RouteSettings at_a_pace_of_its_own(RouteSettings route, std::optional<std::uint64_t> other_drive) {
+  if (!other_drive) return route;
+  std::mt19937_64 generator(*other_drive);
+  route.speed_mps *= std::uniform_real_distribution<double>(kSlowestPace, kFastestPace)(generator);
+  return route;
 }
 
 Eigen::Vector3d vee(const Eigen::Matrix3d& m) {
@@ -99,15 +109,16 @@ Pose3 MotionState::pose_after(double seconds) const {
 }
 
 VehicleMotion::VehicleMotion(const RouteSettings& route, const SuspensionSettings& suspension,
-                             const Terrain& terrain, std::uint64_t seed)
-    : route_(route), terrain_(terrain) {
-  const SpeedPlan plan = plan_speed(route_, route);
+                             const Terrain& terrain, std::uint64_t seed,
+                             std::optional<std::uint64_t> other_drive)
+    : route_(route, other_drive), terrain_(terrain) {
+  const SpeedPlan plan = plan_speed(route_, at_a_pace_of_its_own(route, other_drive));
   const std::vector<double>& s = plan.progress_m;
   constexpr double dt = SpeedPlan::kStep;
 
   Oscillator roll(suspension.natural_hz, suspension.damping);
   Oscillator pitch(suspension.natural_hz, suspension.damping);
-  std::mt19937_64 generator(seed);
+  std::mt19937_64 generator(other_drive.value_or(seed));
   std::normal_distribution<double> bump(0, suspension.roughness_deg * 4);
   std::vector<double> progress_controls, roll_controls, pitch_controls;
   double roll_bump = 0;

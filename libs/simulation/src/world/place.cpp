@@ -52,12 +52,12 @@ void bind(config::Binder& b, PlaceSettings& s) {
 }
 
 Place build_place(const PlaceSettings& settings, const Route& route, const Terrain& terrain,
-                  std::uint64_t seed) {
-  Site site(settings, route, terrain, seed, kMargin);
+                  std::uint64_t seed, std::optional<std::uint64_t> other_drive) {
+  Site site(settings, route, terrain, seed, kMargin, other_drive);
   build(site);
   Place place;
   place.still = std::move(site.mesh);
-  Random random(seed + 1);
+  Random random(other_drive.value_or(seed) + 1);
   add_traffic(place, settings, route, terrain, random);
   return place;
 }

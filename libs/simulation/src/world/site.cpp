@@ -28,8 +28,10 @@ bool is_closed(const Route& route) {
 }  // namespace
 
 Site::Site(const PlaceSettings& s, const Route& r, const Terrain& t, std::uint64_t seed,
-           double margin_m)
-    : settings(s), route(r), terrain(t), random(seed), plan(plan_around(r, margin_m)) {}
+           double margin_m, std::optional<std::uint64_t> other_drive)
+    : settings(s), route(r), terrain(t), random(seed), plan(plan_around(r, margin_m)) {
+  if (other_drive) other_day.emplace(*other_drive);
+}
 
 Street Site::main_street() const {
   const bool closed = is_closed(route);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "traverse/simulation/place.hpp"
@@ -16,11 +17,12 @@ struct Site {
   const Route& route;
   const Terrain& terrain;
   Random random;
+  std::optional<Random> other_day;  ///< of what is parked; nothing: what `random` parks
   GroundPlan plan;
   Mesh mesh;
 
   Site(const PlaceSettings& s, const Route& r, const Terrain& t, std::uint64_t seed,
-       double margin_m);
+       double margin_m, std::optional<std::uint64_t> other_drive);
 
   Eigen::Vector3d on_ground(const Eigen::Vector2d& p, double height = 0) const {
     return {p.x(), p.y(), terrain.height(p.x(), p.y()) + height};

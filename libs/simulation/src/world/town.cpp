@@ -96,6 +96,19 @@ void add_houses(Site& site, const Street& street, double half_width, double side
   }
 }
 
+/// A car where one stood when the place was built. On another day it is there still, or has left,
+/// or another one stands in its stead.
+void park(Site& site, const Mesh& car, const Assortment& cars, geometry::Pose3 T_map_car) {
+  const double dice = site.other_day ? site.other_day->uniform(0, 1) : 0;
+  if (dice > 0.75) return;
+  if (dice > 0.5) {
+    T_map_car.translation += T_map_car.rotation.col(0) * site.other_day->uniform(-0.5, 0.5);
+    site.mesh.add(cars.pick(*site.other_day), T_map_car);
+    return;
+  }
+  site.mesh.add(car, T_map_car);
+}
+
 /// Things along the kerb: trees and lamp posts on the pavement, parked cars on the road.
 void line_kerb(Site& site, const Street& street, unsigned number, double half_width, double side,
                const Greenery& greenery, const Assortment& cars) {
@@ -130,7 +143,7 @@ void line_kerb(Site& site, const Street& street, unsigned number, double half_wi
     if (is_crossing(s - 3, lateral) || is_crossing(s + 3, lateral)) continue;
     const double yaw =
         street.at(s).heading + random.uniform(-0.03, 0.03) + (side > 0 ? std::numbers::pi : 0);
-    site.mesh.add(cars.pick(random), upright(site.on_ground(street.at(s).beside(lateral)), yaw));
+    park(site, cars.pick(random), cars, upright(site.on_ground(street.at(s).beside(lateral)), yaw));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "traverse/config/binder.hpp"
@@ -42,7 +43,10 @@ struct Place {
 };
 
 /// The same place for the same settings and seed.
+/// \param route along the road; all drives through one place have the same
+/// \param other_drive seed of what moves and what is parked while another drive goes through;
+///        nothing: as it was built
 Place build_place(const PlaceSettings& settings, const Route& route, const Terrain& terrain,
-                  std::uint64_t seed);
+                  std::uint64_t seed, std::optional<std::uint64_t> other_drive = {});
 
 }  // namespace traverse::simulation

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -26,6 +28,7 @@ struct RouteSettings {
   std::vector<double> stops_m;  ///< metres along each lap where it halts
   double stop_s = 3;            ///< how long
   double standstill_s = 2;      ///< before the start and after the end
+  double wander_m = 0.5;        ///< the most that another drive keeps beside this line
 };
 void bind(config::Binder& binder, RouteSettings& settings);
 
@@ -43,8 +46,10 @@ class ImpossibleRoute : public std::runtime_error {
 /// never slides sideways, and it is known at a standstill.
 class Route {
  public:
+  /// \param other_drive seed of the line that another driver keeps beside this one, the same in
+  ///        each lap; nothing: exactly this one
   /// \throws ImpossibleRoute
-  explicit Route(const RouteSettings& settings);
+  explicit Route(const RouteSettings& settings, std::optional<std::uint64_t> other_drive = {});
 
   double lap_m() const { return lap_m_; }
   double length_m() const { return length_m_; }  ///< all laps

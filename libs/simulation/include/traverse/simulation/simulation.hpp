@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -49,6 +50,7 @@ class Simulation {
 
  private:
   geometry::Stamp stamp_at(double seconds) const;
+  std::uint64_t seed_of_drive() const;
 
   WorldDescription world_;
   sensors::LidarProfile profile_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include <Eigen/Core>
 
@@ -41,9 +42,12 @@ struct MotionState {
 /// for the ground), differentiated exactly.
 class VehicleMotion {
  public:
+  /// \param seed of the road's bumps
+  /// \param other_drive seed of another driver's bumps, line and pace; nothing: exactly `route`
   /// \throws ImpossibleRoute
   VehicleMotion(const RouteSettings& route, const SuspensionSettings& suspension,
-                const Terrain& terrain, std::uint64_t seed);
+                const Terrain& terrain, std::uint64_t seed,
+                std::optional<std::uint64_t> other_drive = {});
 
   double duration_s() const { return duration_s_; }
   const Route& route() const { return route_; }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,8 @@ struct WorldDescription {
   std::string name = "world";     ///< for titles
   std::string description;        ///< one line
   std::string sensor = "hdl64e";  ///< the lidar, if the command line names none
-  std::int64_t seed = 1;          ///< of the place, the road's bumps and all noise
+  std::int64_t seed = 1;          ///< of the place and, unless drive_seed tells, of the drive
+  std::int64_t drive_seed = -1;   ///< of another drive through the place; -1 or `seed`: its own
   double start_s = 1767225600;    ///< Unix time of the drive's start
   RouteSettings route;
   TerrainSettings terrain;
@@ -42,6 +44,11 @@ struct WorldDescription {
   ClockSettings clock;
 };
 void bind(config::Binder& binder, WorldDescription& world);
+
+/// The seed of what differs between drives through one place: noise and biases of all sensors, what
+/// moves, what is parked, the driver's line and pace. Nothing: the drive that the place was built
+/// with.
+std::optional<std::uint64_t> other_drive(const WorldDescription& world);
 
 /// The world of `file` with `overrides` ("route.speed_mps=8") on top.
 /// \throws files::InputError naming file and line: no YAML, an unknown key, a value out of range, a
