@@ -16,7 +16,7 @@
 namespace traverse::slam {
 
 struct GravityOptions {
-  double window_s = 3;             ///< of way that one direction of up is measured on
+  double window_s = 3;             ///< of driving that one direction of up is measured on
   double odometry_sigma_m = 0.01;  ///< of its positions, each frame for itself
   /// Of the vehicle's acceleration what is believed to remain: stamps, scale, mounting.
   double acceleration_share = 0.01;
