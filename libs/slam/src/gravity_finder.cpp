@@ -81,12 +81,13 @@ class Average {
 void bind(config::Binder& b, GravityOptions& o) {
   using config::Range;
   b.number("window_s", o.window_s, Range::between(0.3, 60),
-           "of way that one direction of up is measured on");
+           "of driving that one direction of up is measured on");
   b.number("odometry_sigma_m", o.odometry_sigma_m, Range::positive(),
            "of odometry's positions in it, each frame for itself");
   b.number("acceleration_share", o.acceleration_share, Range::non_negative(),
            "of the vehicle's acceleration what is believed to remain");
-  b.number("least_sigma_deg", o.least_sigma_deg, Range::positive(), "believed of any direction");
+  b.number("least_sigma_deg", o.least_sigma_deg, Range::positive(),
+           "the least believed of a direction");
   b.number("most_gap_s", o.most_gap_s, Range::positive(),
            "between samples; slower ones do not see how a vehicle shakes");
   b.number("most_off_m_s2", o.most_off_m_s2, Range::positive(),
