@@ -64,6 +64,28 @@ TEST_P(FalseLoops, ThatConfirmEachOtherAreFoundOutByTheRest) {
   EXPECT_EQ(f.false_accepted, 0U);
 }
 
+/// Streets that look like others on a drive of four kilometres: thirteen groups of ten.
+TEST_P(FalseLoops, OfManyAliasedStreetsCostNothingOnALongDrive) {
+  MadeDriveOptions made;
+  made.keyframes_a_lap = 1000;
+  made.loops = 300;
+  made.alike = 10;
+  const Figures f = figures(made, GetParam());
+  EXPECT_LE(f.with_m, 1.01 * f.without_m);
+  EXPECT_EQ(f.false_accepted, 0U);
+  EXPECT_EQ(f.true_rejected, 0U);
+}
+
+/// As many of them as of true ones.
+TEST_P(FalseLoops, OfFiftyPercentInGroups) {
+  MadeDriveOptions made;
+  made.false_share = 0.5;
+  made.alike = 10;
+  const Figures f = figures(made, GetParam());
+  EXPECT_LE(f.with_m, 1.01 * f.without_m);
+  EXPECT_EQ(f.false_accepted, 0U);
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, FalseLoops, ::testing::Range(1U, 11U));
 
 TEST(FalseLoops, BendAGraphThatBelievesThem) {

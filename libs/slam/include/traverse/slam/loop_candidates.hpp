@@ -48,11 +48,13 @@ class LoopCandidates {
 
   const ScanContext& context(std::size_t keyframe) const { return contexts_.at(keyframe); }
 
-  /// After the graph was solved: new positions of all keyframes.
+  /// After the graph was solved: new positions of all keyframes. Their index is made anew only when
+  /// one has moved by more than a metre since it was; a search looks as much farther.
   void move(const std::vector<Eigen::Vector3d>& p_map);
 
  private:
   void let_find(double way_m);
+  void index_positions();
 
   CandidateOptions options_;
   std::vector<ScanContext> contexts_;
@@ -60,6 +62,8 @@ class LoopCandidates {
   std::vector<Eigen::Vector3d> p_map_;
   PlaceIndex ring_keys_;
   PlaceIndex positions_;
+  std::vector<Eigen::Vector3d> p_indexed_;  ///< as positions_ has them
+  double moved_m_ = 0;                      ///< the farthest of them since
 };
 
 }  // namespace traverse::slam
