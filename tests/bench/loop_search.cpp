@@ -101,11 +101,12 @@ class Search {
       for (std::size_t i = 0; i < ring_keys_.size(); ++i) {
         squared.push_back(squared_distance(key, ring_key(i)));
       }
-      const auto last = squared.begin() + static_cast<std::ptrdiff_t>(kRingKeys - 1);
-      std::nth_element(squared.begin(), last, squared.end());
-      const double farthest = std::sqrt(*last) + 1e-6;
-      for (const auto& near : ring_keys_.nearest(key, kRingKeys)) {
-        if (near.distance <= farthest) ++found;
+      std::vector<double> sorted = squared;
+      const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(kRingKeys - 1);
+      std::nth_element(sorted.begin(), last, sorted.end());
+      const double farthest = *last + 1e-9;
+      for (const std::size_t near : ring_keys_.nearest(key, kRingKeys)) {
+        if (squared[near] <= farthest) ++found;
       }
       expected += kRingKeys;
     }
@@ -114,7 +115,7 @@ class Search {
 
   std::span<const SimulatedPlace> places_;
   slam::LoopCandidates candidates_;
-  slam::PlaceIndex ring_keys_;
+  slam::RingKeyIndex ring_keys_;
   std::size_t size_ = 0;
 };
 

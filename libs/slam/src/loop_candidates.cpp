@@ -73,11 +73,11 @@ std::optional<Candidate> LoopCandidates::by_position(const Eigen::Vector3d& p_ma
 
 std::vector<Candidate> LoopCandidates::by_appearance(const ScanContext& context) const {
   std::vector<Candidate> candidates;
-  for (const auto& found :
+  for (const std::size_t keyframe :
        ring_keys_.nearest(context.ring_key(), static_cast<std::size_t>(options_.ring_keys))) {
-    const auto match = ScanContext::compare(contexts_[found.number], context);
+    const auto match = ScanContext::compare(contexts_[keyframe], context);
     if (match.distance > options_.most_descriptor_distance) continue;
-    candidates.push_back({found.number, match.distance, match.turn_rad});
+    candidates.push_back({keyframe, match.distance, match.turn_rad});
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) {

@@ -21,7 +21,8 @@ class PlaceIndex {
   ~PlaceIndex();
 
   /// One place or several, one after the other; many at once cost less than one by one. The number
-  /// of the first is the size before. \throws std::invalid_argument for another number of dimensions
+  /// of the first is the size before. \throws std::invalid_argument for another number of
+  /// dimensions
   void add(std::span<const float> places);
 
   std::size_t size() const;
