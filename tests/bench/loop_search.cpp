@@ -30,6 +30,7 @@ struct Row {
   std::size_t keyframes = 0;
   double add = 0;         ///< mean since the row before
   double ring_keys = 0;   ///< the nearest ones
+  double looked_at = 0;   ///< keys, for these; no microseconds
   double appearance = 0;  ///< these and the comparison of their Scan Contexts
   double position = 0;    ///< the nearest one
   double move = 0;        ///< all of them, after a solution of the graph
@@ -65,9 +66,12 @@ class Search {
              });
     };
     std::size_t found = 0;  // so that nothing is optimised away
+    const std::size_t looked_at = ring_keys_.looked_at();
     row.ring_keys = mean_us([&](const SimulatedPlace& place) {
       found += ring_keys_.nearest(place.context.ring_key(), kRingKeys).size();
     });
+    row.looked_at =
+        static_cast<double>(ring_keys_.looked_at() - looked_at) / static_cast<double>(asked.size());
     row.appearance = mean_us([&](const SimulatedPlace& place) {
       found += candidates_.by_appearance(place.context).size();
     });
@@ -123,17 +127,19 @@ class Search {
 
 void print_loop_search(std::span<const SimulatedPlace> places, std::span<const std::size_t> sizes) {
   std::printf("microseconds of the processor a keyframe; growth since the first row\n");
-  std::printf("%9s %8s %10s %11s %9s %8s %8s %8s %7s %10s\n", "keyframes", "adding", "ring keys",
-              "appearance", "position", "search", "growth", "log n", "recall", "move all");
+  std::printf("%9s %8s %10s %10s %11s %9s %8s %8s %8s %7s %10s\n", "keyframes", "adding",
+              "ring keys", "looked at", "appearance", "position", "search", "growth", "log n",
+              "recall", "move all");
   Search search(places);
   std::vector<Row> rows;
   for (const std::size_t size : sizes) {
     const Row& row = rows.emplace_back(search.at(size));
     const double log_growth =
         std::log(static_cast<double>(size)) / std::log(static_cast<double>(rows.front().keyframes));
-    std::printf("%9zu %8.1f %10.1f %11.1f %9.2f %8.1f %7.2fx %7.2fx %7.3f %10.0f\n", row.keyframes,
-                row.add, row.ring_keys, row.appearance, row.position, row.search(),
-                row.search() / rows.front().search(), log_growth, row.recall, row.move);
+    std::printf("%9zu %8.1f %10.1f %10.0f %11.1f %9.2f %8.1f %7.2fx %7.2fx %7.3f %10.0f\n",
+                row.keyframes, row.add, row.ring_keys, row.looked_at, row.appearance, row.position,
+                row.search(), row.search() / rows.front().search(), log_growth, row.recall,
+                row.move);
   }
 }
 

@@ -9,7 +9,8 @@ namespace traverse::slam {
 
 namespace {
 
-constexpr std::size_t kLinks = 16;          // of a key, on the upper levels; twice as many below
+// With fewer looked at while adding, keys of a steady drive can end up where no link leads.
+constexpr std::size_t kLinks = 16;           // of a key, on the upper levels; twice as many below
 constexpr std::size_t kLookedAtToAdd = 200;  // nearest ones kept while the way is sought
 constexpr std::size_t kLookedAtToFind = 80;
 constexpr std::size_t kFirstCapacity = 1024;
@@ -56,6 +57,10 @@ void RingKeyIndex::add(std::span<const float> key) {
 }
 
 std::size_t RingKeyIndex::size() const { return graph_->keys.cur_element_count; }
+
+std::size_t RingKeyIndex::looked_at() const {
+  return static_cast<std::size_t>(graph_->keys.metric_distance_computations);
+}
 
 std::vector<std::size_t> RingKeyIndex::nearest(std::span<const float> key, std::size_t most) const {
   if (key.size() != rings_) {

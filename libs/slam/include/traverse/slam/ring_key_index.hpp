@@ -33,6 +33,9 @@ class RingKeyIndex {
   /// The numbers of up to `most` keys, nearest first; of equally near ones the earlier first.
   std::vector<std::size_t> nearest(std::span<const float> key, std::size_t most) const;
 
+  /// Keys that all searches so far have looked at: what they cost on any machine.
+  std::size_t looked_at() const;
+
  private:
   struct Graph;
   std::size_t rings_;
