@@ -97,7 +97,7 @@ ceres::Solver::Summary GraphProblem::solve(double widening, int steps, int itera
   solver.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
   solver.max_num_iterations = iterations;
   solver.initial_trust_region_radius = radius;
-  solver.function_tolerance = 1e-8;
+  solver.function_tolerance = 1e-6;
   solver.num_threads = 1;  // a fixed order of summation: the same bits on every machine load
   solver.logging_type = ceres::SILENT;
   StepLimit limit(steps);

@@ -110,6 +110,7 @@ std::vector<PlaceIndex::Found> PlaceIndex::within(std::span<const float> place,
                                                           squared);
   forest_->tree.findNeighbors(result, place.data(), nanoflann::SearchParams());
   std::vector<Found> found;
+  found.reserve(squared.size());
   for (const auto& [number, distance] : squared) {
     found.push_back({number, std::sqrt(static_cast<double>(distance))});
   }

@@ -73,6 +73,7 @@ std::vector<std::size_t> RingKeyIndex::nearest(std::span<const float> key, std::
   for (; !queue.empty(); queue.pop()) found.emplace_back(queue.top());
   std::sort(found.begin(), found.end());
   std::vector<std::size_t> numbers;
+  numbers.reserve(found.size());
   for (const auto& [distance, number] : found) numbers.push_back(number);
   return numbers;
 }
