@@ -52,6 +52,8 @@ Result solve(const GraphParts& graph, Doubts doubts, const GraphOptions& options
   if (options.robust && is_far_off(graph, doubts, bound)) {
     doubts.edges = contradicted_loops(graph, bound);
   }
+  result.doubted_loops =
+      static_cast<std::size_t>(std::count(doubts.edges.begin(), doubts.edges.end(), true));
   GraphProblem problem(graph, doubts, options, poses, up_map);
   if (options.robust) graduate(problem, options, result);
   ceres::Solver::Summary summary;

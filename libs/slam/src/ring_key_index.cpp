@@ -10,7 +10,7 @@ namespace traverse::slam {
 namespace {
 
 // With fewer looked at while adding, keys of a steady drive can end up where no link leads.
-constexpr std::size_t kLinks = 16;           // of a key, on the upper levels; twice as many below
+constexpr std::size_t kLinks = 8;            // of a key, on the upper levels; twice as many below
 constexpr std::size_t kLookedAtToAdd = 200;  // nearest ones kept while the way is sought
 constexpr std::size_t kLookedAtToFind = 80;
 constexpr std::size_t kFirstCapacity = 1024;
