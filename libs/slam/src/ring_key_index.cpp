@@ -1,6 +1,8 @@
 #include "traverse/slam/ring_key_index.hpp"
 
 #include <algorithm>
+// With it the library prefetches by a number that lies behind the end of a list.
+#define NO_MANUAL_VECTORIZATION
 #include <hnswlib/hnswlib.h>
 #include <stdexcept>
 #include <utility>
