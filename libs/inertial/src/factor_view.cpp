@@ -80,6 +80,7 @@ NavState random_nav_state(RandomStates& random) {
   std::vector<Eigen::VectorXd> blocks;
   add_random_state(random, blocks);
   std::vector<const double*> pointers;
+  pointers.reserve(blocks.size());
   for (const auto& block : blocks) pointers.push_back(block.data());
   return state_of(pointers.data());
 }
