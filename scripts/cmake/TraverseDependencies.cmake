@@ -24,6 +24,7 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo cairo-svg cairo-pdf)
 pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
 pkg_check_modules(GEOGRAPHICLIB REQUIRED IMPORTED_TARGET geographiclib)
+find_path(TRAVERSE_HNSWLIB hnswlib/hnswlib.h REQUIRED)  # headers only, on the system's path
 find_path(TRAVERSE_RANDOM123 Random123/philox.h REQUIRED)  # headers only, on the system's path
 find_package(Threads REQUIRED)
 find_package(TBB REQUIRED)

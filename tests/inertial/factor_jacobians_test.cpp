@@ -1,67 +1,25 @@
-#include <memory>
-#include <vector>
-
-#include <ceres/gradient_checker.h>
 #include <gtest/gtest.h>
 
+#include "optimization/checked_factors.hpp"
 #include "traverse/inertial/factor_kinds.hpp"
-#include "traverse/optimization/jacobian_audit.hpp"
-#include "traverse/optimization/rotation_manifold.hpp"
 
 namespace traverse::inertial {
 namespace {
 
-using optimization::FactorKind;
-using optimization::Perturbation;
-using optimization::RotationManifold;
-
 TEST(FactorKinds, PassTheAuditAwayFromZeroResidual) {
-  optimization::AuditOptions options;
-  options.states = 40;
-  const auto audit = optimization::audit_jacobians(factor_kinds(), options);
-  EXPECT_TRUE(audit.passed());
-  for (const auto& factor : audit.factors) {
-    EXPECT_GT(factor.least_residual, 1e-6) << factor.factor;
-    for (const auto& block : factor.blocks) {
-      EXPECT_TRUE(block.passed) << factor.factor << ", " << block.block << ": automatic "
-                                << block.automatic.relative << ", numeric "
-                                << block.numeric.relative;
-    }
-  }
+  testing::expect_audit_passes(factor_kinds());
 }
 
 TEST(FactorKinds, ShowTheFourteenBlocksOfTheInertialFactor) {
   std::size_t blocks = 0;
-  for (const FactorKind& kind : factor_kinds()) {
+  for (const optimization::FactorKind& kind : factor_kinds()) {
     if (kind.name.starts_with("inertial")) blocks += kind.blocks.size();
   }
   EXPECT_EQ(blocks, 14U);
 }
 
 TEST(FactorKinds, PassCeresOwnGradientChecker) {
-  const RotationManifold rotation(Perturbation::kRight);
-  ceres::NumericDiffOptions options;
-  options.ridders_relative_initial_step_size = 1e-4;
-  optimization::RandomStates random(7);
-  for (const FactorKind& kind : factor_kinds()) {
-    std::vector<const ceres::Manifold*> manifolds;
-    for (const auto& block : kind.blocks) {
-      manifolds.push_back(block.is_rotation ? &rotation : nullptr);
-    }
-    const auto sample = kind.make(random, Perturbation::kRight);
-    std::vector<const double*> parameters;
-    for (const auto& block : sample.state) parameters.push_back(block.data());
-    const ceres::GradientChecker checker(sample.analytic.get(), &manifolds, options);
-    ceres::GradientChecker::ProbeResults results;
-    checker.Probe(parameters.data(), 1e-6, &results);
-    // Probe's verdict divides entry by entry, also those that are zero but for rounding.
-    for (std::size_t k = 0; k < kind.blocks.size(); ++k) {
-      const auto& analytic = results.local_jacobians[k];
-      const auto& numeric = results.local_numeric_jacobians[k];
-      EXPECT_LT((analytic - numeric).cwiseAbs().maxCoeff(), 1e-6 * analytic.cwiseAbs().maxCoeff())
-          << kind.name << ", " << kind.blocks[k].name;
-    }
-  }
+  testing::expect_gradient_checker_passes(factor_kinds());
 }
 
 }  // namespace

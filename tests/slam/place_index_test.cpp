@@ -44,6 +44,40 @@ TEST(PlaceIndex, FindsWhatLookingAtAllWouldFindWhileItGrows) {
   }
 }
 
+TEST(PlaceIndex, AllWithinARadius) {
+  const auto places = random_places(300, 3);
+  PlaceIndex index(3);
+  for (const auto& place : places) index.add(place);
+  for (const auto& query : random_places(20, 3)) {
+    std::vector<std::pair<double, std::size_t>> near;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (distance(query, places[i]) < 0.2) near.emplace_back(distance(query, places[i]), i);
+    }
+    std::sort(near.begin(), near.end());
+    const auto found = index.within(query, 0.2);
+    ASSERT_EQ(found.size(), near.size());
+    for (std::size_t k = 0; k < found.size(); ++k) EXPECT_EQ(found[k].number, near[k].second);
+  }
+}
+
+TEST(PlaceIndex, ManyAtOnceAreThoseOneByOne) {
+  const auto places = random_places(100, 3);
+  PlaceIndex one_by_one(3);
+  PlaceIndex at_once(3);
+  std::vector<float> values;
+  for (const auto& place : places) {
+    one_by_one.add(place);
+    values.insert(values.end(), place.begin(), place.end());
+  }
+  at_once.add(values);
+  ASSERT_EQ(at_once.size(), 100U);
+  for (const auto& query : random_places(20, 3)) {
+    const auto expected = one_by_one.nearest(query, 5);
+    const auto found = at_once.nearest(query, 5);
+    for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(found[k].number, expected[k].number);
+  }
+}
+
 TEST(PlaceIndex, ACopyGrowsOnItsOwn) {
   const auto places = random_places(12, 3);
   PlaceIndex index(3);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <Eigen/Dense>
 #include <fmt/core.h>
@@ -108,10 +109,14 @@ Result PoseGraph::optimise(Start start) {
     find_up();
     georeference();
   }
-  const GraphParts parts{edges_,        fixes_,        levels_,       index_of_, is_georeferenced_,
-                         judged_edges_, judged_fixes_, judged_levels_};
   const double initial_cost = evaluate();
-  result = solve(parts, options_, {poses_, up_map_, up_offset_});
+  Doubts doubts{std::vector<bool>(edges_.size(), false), std::vector<bool>(fixes_.size(), false),
+                std::vector<bool>(levels_.size(), false)};
+  for (std::size_t e = 0; e < judged_edges_; ++e) doubts.edges[e] = edges_[e].is_rejected();
+  for (std::size_t f = 0; f < judged_fixes_; ++f) doubts.fixes[f] = fixes_[f].is_rejected();
+  for (std::size_t l = 0; l < judged_levels_; ++l) doubts.levels[l] = levels_[l].is_rejected();
+  const GraphParts parts{edges_, fixes_, levels_, index_of_, is_georeferenced_};
+  result = solve(parts, std::move(doubts), options_, {poses_, up_map_, up_offset_});
   result.initial_cost = initial_cost;
   result.final_cost = evaluate();
   solved_nodes_ = ids_.size();

@@ -8,6 +8,9 @@ namespace traverse::slam {
 
 namespace {
 
+constexpr double kMostMoved_m = 1;    // from where the index has them, before it is made anew
+constexpr double kRounding_m = 0.01;  // of positions as floats, far from the origin
+
 std::array<float, 3> as_place(const Eigen::Vector3d& p) {
   return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
 }
@@ -44,24 +47,37 @@ void LoopCandidates::add(ScanContext context, double way_m, const Eigen::Vector3
 void LoopCandidates::let_find(double way_m) {
   while (findable() < contexts_.size() && way_m_[findable()] + options_.least_way_m <= way_m) {
     ring_keys_.add(contexts_[findable()].ring_key());
-    positions_.add(as_place(p_map_[findable()]));
+    p_indexed_.push_back(p_map_[findable()]);
+    positions_.add(as_place(p_indexed_.back()));
   }
 }
 
 std::optional<Candidate> LoopCandidates::by_position(const Eigen::Vector3d& p_map,
                                                      double reach_m) const {
   const auto nearest = positions_.nearest(as_place(p_map), 1);
-  if (nearest.empty() || nearest.front().distance > reach_m) return std::nullopt;
-  return Candidate{nearest.front().number, 1, 0};
+  const double off_m = moved_m_ + kRounding_m;
+  if (nearest.empty() || nearest.front().distance > reach_m + off_m) return std::nullopt;
+  // Whoever is nearest now was at most that far away when the index was made.
+  const double search_m = nearest.front().distance + 2 * off_m;
+  std::optional<std::size_t> best;
+  double best_m = reach_m;
+  for (const auto& found : positions_.within(as_place(p_map), search_m)) {
+    const double distance_m = (p_map_[found.number] - p_map).norm();
+    if (distance_m > best_m || (best && distance_m == best_m)) continue;
+    best = found.number;
+    best_m = distance_m;
+  }
+  if (!best) return std::nullopt;
+  return Candidate{*best, 1, 0};
 }
 
 std::vector<Candidate> LoopCandidates::by_appearance(const ScanContext& context) const {
   std::vector<Candidate> candidates;
-  for (const auto& found :
+  for (const std::size_t keyframe :
        ring_keys_.nearest(context.ring_key(), static_cast<std::size_t>(options_.ring_keys))) {
-    const auto match = ScanContext::compare(contexts_[found.number], context);
+    const auto match = ScanContext::compare(contexts_[keyframe], context);
     if (match.distance > options_.most_descriptor_distance) continue;
-    candidates.push_back({found.number, match.distance, match.turn_rad});
+    candidates.push_back({keyframe, match.distance, match.turn_rad});
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) {
@@ -72,9 +88,24 @@ std::vector<Candidate> LoopCandidates::by_appearance(const ScanContext& context)
 
 void LoopCandidates::move(const std::vector<Eigen::Vector3d>& p_map) {
   p_map_ = p_map;
+  moved_m_ = 0;
+  for (std::size_t i = 0; i < findable(); ++i) {
+    moved_m_ = std::max(moved_m_, (p_map_[i] - p_indexed_[i]).norm());
+  }
+  if (moved_m_ > kMostMoved_m) index_positions();
+}
+
+void LoopCandidates::index_positions() {
   const std::size_t count = findable();
+  std::vector<float> places;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto place = as_place(p_map_[i]);
+    places.insert(places.end(), place.begin(), place.end());
+  }
   positions_ = PlaceIndex(3);
-  for (std::size_t i = 0; i < count; ++i) positions_.add(as_place(p_map_[i]));
+  positions_.add(places);
+  p_indexed_.assign(p_map_.begin(), p_map_.begin() + static_cast<std::ptrdiff_t>(count));
+  moved_m_ = 0;
 }
 
 }  // namespace traverse::slam

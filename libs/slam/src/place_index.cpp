@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 
 #include <nanoflann.hpp>
 
@@ -30,6 +31,17 @@ struct PlaceSet {
 constexpr std::size_t kLeafSize = 10;
 constexpr std::size_t kMostPlaces = 100'000'000;
 
+std::invalid_argument other_dimensions() {
+  return std::invalid_argument("a place of another number of dimensions than the index");
+}
+
+void sort(std::vector<PlaceIndex::Found>& found) {
+  using Found = PlaceIndex::Found;
+  std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
+    return std::tie(a.distance, a.number) < std::tie(b.distance, b.number);
+  });
+}
+
 }  // namespace
 
 struct PlaceIndex::Forest {
@@ -54,10 +66,7 @@ PlaceIndex::~PlaceIndex() = default;
 
 // The trees point into their own places, so a copy grows its own.
 PlaceIndex::PlaceIndex(const PlaceIndex& other) : PlaceIndex(other.dimensions_) {
-  const std::vector<float>& values = other.forest_->places.values;
-  for (std::size_t i = 0; i < other.size(); ++i) {
-    add(std::span(values).subspan(i * dimensions_, dimensions_));
-  }
+  add(other.forest_->places.values);
 }
 
 PlaceIndex& PlaceIndex::operator=(const PlaceIndex& other) {
@@ -65,22 +74,19 @@ PlaceIndex& PlaceIndex::operator=(const PlaceIndex& other) {
   return *this;
 }
 
-void PlaceIndex::add(std::span<const float> place) {
-  if (place.size() != dimensions_) {
-    throw std::invalid_argument("a place of another number of dimensions than the index");
-  }
-  const auto number = static_cast<std::uint32_t>(size());
-  forest_->places.values.insert(forest_->places.values.end(), place.begin(), place.end());
-  forest_->tree.addPoints(number, number);
+void PlaceIndex::add(std::span<const float> places) {
+  if (places.size() % dimensions_ != 0) throw other_dimensions();
+  if (places.empty()) return;
+  const auto first = static_cast<std::uint32_t>(size());
+  forest_->places.values.insert(forest_->places.values.end(), places.begin(), places.end());
+  forest_->tree.addPoints(first, static_cast<std::uint32_t>(size() - 1));
 }
 
 std::size_t PlaceIndex::size() const { return forest_->places.kdtree_get_point_count(); }
 
 std::vector<PlaceIndex::Found> PlaceIndex::nearest(std::span<const float> place,
                                                    std::size_t most) const {
-  if (place.size() != dimensions_) {
-    throw std::invalid_argument("a place of another number of dimensions than the index");
-  }
+  if (place.size() != dimensions_) throw other_dimensions();
   most = std::min(most, size());
   if (most == 0) return {};
   std::vector<std::uint32_t> numbers(most);
@@ -92,9 +98,23 @@ std::vector<PlaceIndex::Found> PlaceIndex::nearest(std::span<const float> place,
   for (std::size_t i = 0; i < result.size(); ++i) {
     found.push_back({numbers[i], std::sqrt(static_cast<double>(squared[i]))});
   }
-  std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
-    return std::tie(a.distance, a.number) < std::tie(b.distance, b.number);
-  });
+  sort(found);
+  return found;
+}
+
+std::vector<PlaceIndex::Found> PlaceIndex::within(std::span<const float> place,
+                                                  double radius) const {
+  if (place.size() != dimensions_) throw other_dimensions();
+  std::vector<std::pair<std::uint32_t, float>> squared;
+  nanoflann::RadiusResultSet<float, std::uint32_t> result(static_cast<float>(radius * radius),
+                                                          squared);
+  forest_->tree.findNeighbors(result, place.data(), nanoflann::SearchParams());
+  std::vector<Found> found;
+  found.reserve(squared.size());
+  for (const auto& [number, distance] : squared) {
+    found.push_back({number, std::sqrt(static_cast<double>(distance))});
+  }
+  sort(found);
   return found;
 }
 

@@ -56,10 +56,10 @@ void Slam::accept(Loop& loop) {
                      pose_graph::EdgeKind::kLoop);
   last_accepted_ = number;
   ++unsolved_loops_;
-  if (loop.odometry_chi2 > options_.solve_at_chi2 || unsolved_loops_ >= options_.solve_every ||
-      !solution_) {
-    solve();
-  }
+  // A solution takes longer the larger the graph; a loop that agrees moves nothing and can wait.
+  const std::size_t thousands = std::max<std::size_t>(1, graph_.size() / 1000);
+  const std::size_t wait = thousands * static_cast<std::size_t>(options_.solve_every);
+  if (loop.odometry_chi2 > options_.solve_at_chi2 || unsolved_loops_ >= wait || !solution_) solve();
 }
 
 void Slam::solve() {

@@ -42,7 +42,7 @@ void bind(config::Binder& b, SlamOptions& o) {
   b.number("solve_at_chi2", o.solve_at_chi2, Range::non_negative(),
            "the graph is solved when an accepted loop is off by this");
   b.integer("solve_every", o.solve_every, Range::between(1, 1e6),
-            "at the latest after so many loops");
+            "and after so many loops for each thousand keyframes");
   b.group("graph", "the pose graph", [&](config::Binder& g) { bind(g, o.graph); });
 }
 

@@ -76,6 +76,7 @@ struct Result {
   double initial_cost = 0;  ///< half the robust sum of squares with the final bound
   double final_cost = 0;
   std::size_t loops = 0;
+  std::size_t doubted_loops = 0;  ///< before the first stage: they contradict larger groups
   std::size_t rejected_loops = 0;
   std::size_t fixes = 0;
   std::size_t rejected_fixes = 0;
@@ -97,7 +98,8 @@ struct Result {
 /// chi-square, 4 B^2 / (B + chi2)^2 beyond. By itself that rejects true loops after much drift,
 /// because they contradict odometry's first guess as much as false ones do; so the bound begins at
 /// the largest chi-square, where nothing is rejected, and shrinks by stages as in graduated
-/// non-convexity (Yang et al., RA-L 2020), each stage going on from the solution before.
+/// non-convexity (Yang et al., RA-L 2020), each stage going on from the solution before. Loops that
+/// contradict larger groups of loops are kept out of all stages but the last.
 ///
 /// Incremental: optimise() starts from the last solution; nodes added since are placed by their
 /// guesses relative to the node that odometry links them to, and only loops added since widen the

@@ -8,6 +8,7 @@
 
 #include "traverse/config/binder.hpp"
 #include "traverse/slam/place_index.hpp"
+#include "traverse/slam/ring_key_index.hpp"
 #include "traverse/slam/scan_context.hpp"
 
 namespace traverse::slam {
@@ -29,8 +30,8 @@ struct Candidate {
   double turn_rad = 0;  ///< about z, from the candidate's frame to that of the one asked for
 };
 
-/// Which of the earlier keyframes look like, or lie by, a place. Both searches go through k-d trees
-/// that grow with the drive.
+/// Which of the earlier keyframes look like, or lie by, a place. The time of both searches grows
+/// with the logarithm of the number of keyframes.
 class LoopCandidates {
  public:
   explicit LoopCandidates(const CandidateOptions& options);
@@ -48,18 +49,22 @@ class LoopCandidates {
 
   const ScanContext& context(std::size_t keyframe) const { return contexts_.at(keyframe); }
 
-  /// After the graph was solved: new positions of all keyframes.
+  /// After the graph was solved: new positions of all keyframes. Their index is made anew only when
+  /// one has moved by more than a metre since it was; a search looks as much farther.
   void move(const std::vector<Eigen::Vector3d>& p_map);
 
  private:
   void let_find(double way_m);
+  void index_positions();
 
   CandidateOptions options_;
   std::vector<ScanContext> contexts_;
   std::vector<double> way_m_;
   std::vector<Eigen::Vector3d> p_map_;
-  PlaceIndex ring_keys_;
+  RingKeyIndex ring_keys_;
   PlaceIndex positions_;
+  std::vector<Eigen::Vector3d> p_indexed_;  ///< as positions_ has them
+  double moved_m_ = 0;                      ///< the farthest of them since
 };
 
 }  // namespace traverse::slam

@@ -20,9 +20,10 @@ class PlaceIndex {
   PlaceIndex& operator=(PlaceIndex&&) noexcept;
   ~PlaceIndex();
 
-  /// The number of the new place is the size before. \throws std::invalid_argument for another
-  /// number of dimensions
-  void add(std::span<const float> place);
+  /// One place or several, one after the other; many at once cost less than one by one. The number
+  /// of the first is the size before. \throws std::invalid_argument for another number of
+  /// dimensions
+  void add(std::span<const float> places);
 
   std::size_t size() const;
 
@@ -32,6 +33,8 @@ class PlaceIndex {
   };
   /// Up to `most` places, nearest first; of equally near ones the earlier first.
   std::vector<Found> nearest(std::span<const float> place, std::size_t most) const;
+  /// All places nearer than `radius`, in the same order.
+  std::vector<Found> within(std::span<const float> place, double radius) const;
 
  private:
   struct Forest;

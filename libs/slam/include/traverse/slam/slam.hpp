@@ -47,8 +47,8 @@ struct SlamOptions {
   int submap_every = 2;  ///< submaps are centred at every so manieth keyframe
   LoopRegistrationOptions registration;
   LoopChecks loops;
-  double solve_at_chi2 = 12;  ///< the graph is solved when an accepted loop is off by this,
-  int solve_every = 20;       ///< at the latest after so many loops
+  double solve_at_chi2 = 12;  ///< the graph is solved when an accepted loop is off by this, and
+  int solve_every = 1;        ///< after so many loops for each thousand keyframes, at least one
   pose_graph::GraphOptions graph;
 };
 void bind(config::Binder& binder, SlamOptions& options);
@@ -133,7 +133,7 @@ class Slam {
   std::vector<std::size_t> edge_of_loop_;              ///< in the graph; kNoEdge
   std::deque<std::shared_ptr<const Submap>> submaps_;  ///< the last few used
   std::optional<std::size_t> last_accepted_;           ///< in loops_
-  int unsolved_loops_ = 0;
+  std::size_t unsolved_loops_ = 0;
   std::optional<pose_graph::Result> solution_;
 };
 
