@@ -235,13 +235,15 @@ TEST(RunOnKitti, BothDrivesReachTheAccuracyOfThePublishedSystemAndMore) {
     const TemporaryFolder folder;
     const std::size_t frames = std::min(c.frames, kMostFrames);
     const ProgramResult result = run_program(
-        "run --last " + std::to_string(frames - 1) + " " + drive.string() + " -o " + (folder / "run").string() + " --recording-config " +
-        TRAVERSE_SHARE_DIR + "/recordings/kitti_raw_drive.yaml --reference " +
-        (drive / c.reference).string() + " --reference-frame lidar --no-report --no-hash");
+        "run --last " + std::to_string(frames - 1) + " " + drive.string() + " -o " +
+        (folder / "run").string() + " --recording-config " + TRAVERSE_SHARE_DIR +
+        "/recordings/kitti_raw_drive.yaml --reference " + (drive / c.reference).string() +
+        " --reference-frame lidar --no-report --no-hash");
     ASSERT_EQ(result.status, 0) << result.messages;
     const json evaluation = json::parse(files::read_text(folder / "run/evaluation.json"));
     EXPECT_EQ(evaluation["association"]["pairs"], frames);
     EXPECT_LT(evaluation["ape"]["translation"]["rmse"], c.ape_m) << c.drive;
+    if (frames < c.frames) continue;  // an error in percent is one of the whole way
     EXPECT_LT(evaluation["path"]["end_error_percent"], c.end_percent) << c.drive;
   }
 }

@@ -239,6 +239,15 @@ TEST_F(RunTest, AStopEndsInOrderWithWhatIsDone) {
   EXPECT_TRUE(std::filesystem::exists(run_folder_.trajectory()));
 }
 
+TEST_F(RunTest, AStopBeforeTheFirstFrameIsNoFailureOfTheRun) {
+  const std::atomic<bool> stop{true};
+  RunObserver observer;
+  observer.stop = &stop;
+  EXPECT_THROW(run_all({}, observer), std::runtime_error);
+  EXPECT_EQ(record()["status"], "interrupted");
+  EXPECT_THAT(std::string(record()["reason"]), ::testing::HasSubstr("stopped by the user"));
+}
+
 TEST_F(RunTest, AFailureIsToldInTheRecordAndThrown) {
   estimator_->fail_at = geometry::Stamp::from_seconds(1);
   EXPECT_THROW(run_all(), std::runtime_error);

@@ -184,6 +184,7 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
     write_record(folder, record);
   };
   folder.prepare();
+  bool stopped_at_once = false;
   try {
     RunResults results(*pipeline.estimator, source.info(), options, folder);
     const bool stopped = estimate_all(source, *pipeline.estimator, options, observer, results);
@@ -191,9 +192,11 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
     record.north_map = pipeline.estimator->north_map();
     record.frames_read = results.frames().rows().size() + source.skipped().total();
     if (results.frames().rows().empty()) {
-      throw std::runtime_error(source.info().path.string() +
-                               ": no frame was estimated: the recording has no usable scan in the "
-                               "range asked for");
+      stopped_at_once = stopped;
+      throw std::runtime_error(source.info().path.string() + ": no frame was estimated: " +
+                               (stopped
+                                    ? "stopped by the user before the first one"
+                                    : "the recording has no usable scan in the range asked for"));
     }
     observer.stage("maps and trajectory");
     results.correct();
@@ -217,7 +220,7 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
     record.status = stopped ? RunStatus::kInterrupted : RunStatus::kOk;
     record.reason = stopped ? "stopped by the user" : "";
   } catch (const std::exception& error) {
-    record.status = RunStatus::kFailed;
+    record.status = stopped_at_once ? RunStatus::kInterrupted : RunStatus::kFailed;
     record.reason = error.what();
     try {
       close_record();

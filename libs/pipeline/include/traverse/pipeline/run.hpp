@@ -36,7 +36,8 @@ struct RunObserver {
 
 /// Feeds the recording to the pipeline's estimator and writes the run folder: trajectory,
 /// reference, frames.csv, maps, a sample scan, evaluation.json and, last, run.json.
-/// \returns the record that was written; its status is kOk or kInterrupted
+/// \returns the record that was written; its status is kOk or kInterrupted. A stop before the
+/// first frame is thrown, for there is nothing to write; its record says interrupted, too.
 /// \throws what reading, estimating and writing throw; run.json then says "failed" and why, if the
 /// folder can still be written.
 RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& folder,
