@@ -19,6 +19,10 @@ NVGcolor to_nanovg(render::Colour colour, float opacity) {
 }
 
 mrpt::img::TColor to_mrpt(render::Colour colour) { return {colour.red, colour.green, colour.blue}; }
+mrpt::math::TPoint3Df to_mrpt(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
+mrpt::poses::CPose3D to_mrpt(const geometry::Pose3& pose) {
+  return mrpt::poses::CPose3D(mrpt::math::CMatrixDouble44(pose.matrix()));
+}
 
 nanogui::ref<nanogui::Theme> window_theme(NVGcontext* context) {
   const render::Theme dark = render::dark_theme();

@@ -15,8 +15,6 @@ constexpr float kHalfLength = 0.4F;  // of the line drawn for a matched line or 
 constexpr float kPointSize = 4;
 constexpr double kFaded = 0.4;  // of the normals, towards the background
 
-mrpt::math::TPoint3Df to_mrpt(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
-
 void append(mrpt::opengl::CSetOfLines& lines, const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
   lines.appendLine(a.x(), a.y(), a.z(), b.x(), b.y(), b.z());
 }
@@ -26,9 +24,9 @@ void append(mrpt::opengl::CSetOfLines& lines, const Eigen::Vector3f& a, const Ei
 MatchMarks::MatchMarks(mrpt::opengl::COpenGLScene& scene) {
   points_->setPointSize(kPointSize);
   points_->enableVariablePointSize(false);
-  lines_->setColor_u8(app::to_mrpt(kLineMatchColour));
+  lines_->setColor_u8(to_mrpt(kLineMatchColour));
   normals_->setColor_u8(
-      app::to_mrpt(render::mix(kPlaneMatchColour, render::dark_theme().background, kFaded)));
+      to_mrpt(render::mix(kPlaneMatchColour, render::dark_theme().background, kFaded)));
   scene.insert(points_);
   scene.insert(lines_);
   scene.insert(normals_);
@@ -50,8 +48,7 @@ void MatchMarks::show(std::span<const pipeline::MatchedPoint> matches,
     const pipeline::MatchedPoint& match = matches[i];
     points.push_back(to_mrpt(match.p_map.cast<float>()));
     const render::Colour by_kind = match.on_line ? kLineMatchColour : kPlaneMatchColour;
-    colours.push_back(
-        app::to_mrpt(residuals ? replay::residual_colour(match.residual_m) : by_kind));
+    colours.push_back(to_mrpt(residuals ? replay::residual_colour(match.residual_m) : by_kind));
     const Eigen::Vector3f foot = match.foot_map.cast<float>();
     const Eigen::Vector3f half = kHalfLength * match.direction.cast<float>();
     if (match.on_line) {

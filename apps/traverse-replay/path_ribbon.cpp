@@ -10,8 +10,6 @@ constexpr std::size_t kMostPieces = 2000;  // far from the present
 constexpr std::size_t kNear = 200;         // vertices on each side of it
 constexpr float kLeastPiece = 1e-4F;       // metres
 
-mrpt::math::TPoint3Df to_mrpt(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
-
 void append_piece(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const RibbonStyle& style,
                   mrpt::opengl::CSetOfTriangles& ribbon) {
   const Eigen::Vector3f along = b - a;
@@ -21,7 +19,7 @@ void append_piece(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Ribb
   const auto triangle = [&](const Eigen::Vector3f& p, const Eigen::Vector3f& q,
                             const Eigen::Vector3f& r) {
     mrpt::opengl::TTriangle t(to_mrpt(p), to_mrpt(q), to_mrpt(r));
-    t.setColor(app::to_mrpt(style.colour));
+    t.setColor(to_mrpt(style.colour));
     t.computeNormals();
     ribbon.insertTriangle(t);
   };

@@ -43,12 +43,6 @@ constexpr double kMapDepth = 12;  // of the heights that the map's colours span,
 constexpr std::size_t kMapShades = 64;
 constexpr double kRobot = 0.2;  // size of what a 2-D laser is on, against a car
 
-TPoint3Df to_mrpt(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
-
-mrpt::poses::CPose3D to_mrpt(const geometry::Pose3& pose) {
-  return mrpt::poses::CPose3D(mrpt::math::CMatrixDouble44(pose.matrix()));
-}
-
 /// Every so manieth of `count`, so that about `most` remain.
 std::size_t stride_for(std::size_t count, std::size_t most) {
   return std::max<std::size_t>(1, (count + most - 1) / most);
@@ -58,7 +52,7 @@ std::array<TColor, kMapShades> map_shades() {
   std::array<TColor, kMapShades> shades;
   for (std::size_t k = 0; k < kMapShades; ++k) {
     const double share = static_cast<double>(k) / (kMapShades - 1);
-    shades[k] = app::to_mrpt(render::mix(kLowMapColour, kHighMapColour, share));
+    shades[k] = to_mrpt(render::mix(kLowMapColour, kHighMapColour, share));
   }
   return shades;
 }
@@ -102,7 +96,7 @@ Scene::Scene(double scale)
                                   static_cast<float>(dark.background.green) / 255,
                                   static_cast<float>(dark.background.blue) / 255, 1});
   view->setViewportClipDistances(0.2F, 5000.0F);
-  o.grid->setColor_u8(app::to_mrpt(dark.grid));
+  o.grid->setColor_u8(to_mrpt(dark.grid));
   o.map->setPointSize(1.5F);
   o.scan->setPointSize(2.0F);
   o.local_map->setPointSize(2.0F);
@@ -185,7 +179,7 @@ void Scene::show_scan(const replay::Shown& shown, const ViewSettings& settings) 
   std::vector<TColor> colours;
   for (std::size_t i = 0; i < all.size(); i += stride) {
     points.push_back(to_mrpt(all[i]));
-    colours.push_back(app::to_mrpt(coloured.colours[i]));
+    colours.push_back(to_mrpt(coloured.colours[i]));
   }
   if (!objects_->ground_z && !all.empty()) {
     std::vector<float> heights;
@@ -206,7 +200,7 @@ void Scene::show_local_map(const replay::Shown& shown) {
   for (std::size_t i = 0; i < shown.local_map.size(); i += stride) {
     points.push_back(to_mrpt(shown.local_map[i].cast<float>()));
   }
-  std::vector<TColor> colours(points.size(), app::to_mrpt(kLocalMapColour));
+  std::vector<TColor> colours(points.size(), to_mrpt(kLocalMapColour));
   objects_->local_map->assign(std::move(points), std::move(colours));
 }
 

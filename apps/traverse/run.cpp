@@ -225,7 +225,7 @@ CLI::App* add_estimating(CLI::App& app, const std::string& name, const std::stri
                 "write the way on the UTM grid too (RUN/trajectory_utm.tum)");
   add_budget_option(*run, arguments->budget);
   run->add_flag("!--no-hash", arguments->hash, "do not compute the recording's SHA-256");
-  run->callback([arguments, run] {
+  run->callback([arguments] {
     if (arguments->last && *arguments->last < arguments->first) {
       throw CLI::ValidationError("--last", "is before --first");
     }

@@ -12,14 +12,14 @@
 namespace traverse::lidar {
 namespace {
 
-constexpr double kStep = 0.004;  // rad between points of a line
+constexpr double kSpacing = 0.004;  // rad between points of a line
 
 bool is_edge(FeatureClass c) { return c == FeatureClass::kSharp || c == FeatureClass::kLessSharp; }
 
 /// A line of 201 points that looks along +x at a corner of two walls in its middle.
 ScanLines corner() {
   ScanLines lines;
-  testing::add_line(lines, 201, -100 * kStep, kStep, [](double azimuth) {
+  testing::add_line(lines, 201, -100 * kSpacing, kSpacing, [](double azimuth) {
     return 10 / (std::cos(azimuth) + std::abs(std::sin(azimuth)));
   });
   return lines;
@@ -58,7 +58,7 @@ TEST(Features, EverySectorCoversItsPointsToTheLast) {
   // On a circle every point is planar; whatever the number of sectors, none with a curvature may
   // be forgotten (published codes lose the last point of each sector).
   ScanLines lines;
-  testing::add_line(lines, 127, 0, kStep, [](double) { return 10.0; });
+  testing::add_line(lines, 127, 0, kSpacing, [](double) { return 10.0; });
   for (const int sectors : {1, 2, 5, 6, 7}) {
     FeatureOptions options;
     options.sectors = sectors;
@@ -72,8 +72,9 @@ TEST(Features, EverySectorCoversItsPointsToTheLast) {
 /// A pole (near) before a wall (far): points 90..110 at 5 m, the rest at 10 m.
 ScanLines pole_before_wall() {
   ScanLines lines;
-  testing::add_line(lines, 201, -100 * kStep, kStep,
-                    [](double azimuth) { return std::abs(azimuth) < 10.5 * kStep ? 5.0 : 10.0; });
+  testing::add_line(lines, 201, -100 * kSpacing, kSpacing, [](double azimuth) {
+    return std::abs(azimuth) < 10.5 * kSpacing ? 5.0 : 10.0;
+  });
   return lines;
 }
 
@@ -99,7 +100,7 @@ TEST(Features, AGrazedSurfaceGivesNoFeature) {
 
 TEST(Features, ShortAndEmptyLinesHaveNone) {
   ScanLines lines;
-  testing::add_line(lines, 10, 0, kStep, [](double) { return 10.0; });
+  testing::add_line(lines, 10, 0, kSpacing, [](double) { return 10.0; });
   EXPECT_EQ(extract_features(lines, FeatureOptions{}).count(FeatureClass::kNone), 10U);
   EXPECT_TRUE(extract_features(ScanLines{}, FeatureOptions{}).classes.empty());
 }

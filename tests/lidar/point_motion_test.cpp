@@ -10,7 +10,7 @@ namespace {
 using optimization::Perturbation;
 using testing::RandomMotion;
 
-constexpr double kStep = 1e-5;
+constexpr double kDifference = 1e-5;
 
 TEST(PartOf, IsTheMotionItselfItsHalfAndNothing) {
   RandomMotion random(1);
@@ -54,10 +54,10 @@ TEST(PointMotion, DerivativesMatchDifferencesOnBothSides) {
         const Eigen::Matrix3d dq_dd =
             motion.by_rotation(identity, motion.at(T.quaternion(), T.translation));
         for (int k = 0; k < 3; ++k) {
-          const Eigen::Vector3d d = kStep * Eigen::Vector3d::Unit(k);
+          const Eigen::Vector3d d = kDifference * Eigen::Vector3d::Unit(k);
           const Eigen::Vector3d numeric =
               (disturbed(T, p, fraction, side, d) - disturbed(T, p, fraction, side, -d)) /
-              (2 * kStep);
+              (2 * kDifference);
           EXPECT_LT((dq_dd.col(k) - numeric).norm(), 1e-7) << fraction;
         }
         EXPECT_EQ(motion.by_translation(identity), fraction * identity);
@@ -76,10 +76,10 @@ TEST(PointMotion, TwistsOfTheWholePoseMoveThePointAsInTheTable) {
   Eigen::Matrix<double, 3, 6> map;
   map << -geometry::hat(T * p), Eigen::Matrix3d::Identity();
   for (int k = 0; k < 6; ++k) {
-    const geometry::Pose3 step = geometry::exp_se3(kStep * geometry::Twist::Unit(k));
+    const geometry::Pose3 step = geometry::exp_se3(kDifference * geometry::Twist::Unit(k));
     const geometry::Pose3 back = step.inverse();
-    EXPECT_LT((body.col(k) - ((T * step) * p - (T * back) * p) / (2 * kStep)).norm(), 1e-8);
-    EXPECT_LT((map.col(k) - ((step * T) * p - (back * T) * p) / (2 * kStep)).norm(), 1e-8);
+    EXPECT_LT((body.col(k) - ((T * step) * p - (T * back) * p) / (2 * kDifference)).norm(), 1e-8);
+    EXPECT_LT((map.col(k) - ((step * T) * p - (back * T) * p) / (2 * kDifference)).norm(), 1e-8);
   }
 }
 

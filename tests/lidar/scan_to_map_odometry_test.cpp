@@ -132,11 +132,7 @@ TEST_F(StreetOdometry, ARecordingShorterThanTheStartIsNotLost) {
 }
 
 TEST(Odometry, WithoutDeskewASwervingDriveIsWorse) {
-  simulation::Drive swerving;
-  swerving.speed_mps = 12;
-  swerving.amplitude_m = 3;
-  swerving.wavelength_m = 40;  // up to 0.9 rad/s
-  const SimulatedDrive drive(simulation::street(60, 1), 24, swerving);
+  const SimulatedDrive drive(simulation::street(60, 1), 24, testing::swerving());
   ScanToMapOdometryOptions options = quick_start();
   const double with_deskew = worst_position_error(run(drive, options), drive);
   options.deskew = false;

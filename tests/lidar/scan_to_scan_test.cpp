@@ -153,14 +153,6 @@ struct TwoSweeps {
   }
 };
 
-simulation::Drive swerving() {
-  simulation::Drive drive;
-  drive.speed_mps = 12;
-  drive.amplitude_m = 3;
-  drive.wavelength_m = 40;
-  return drive;
-}
-
 ScanToScanOptions with(SweepMotion sweep_motion) {
   ScanToScanOptions options;
   options.sweep_motion = sweep_motion;
@@ -168,7 +160,7 @@ ScanToScanOptions with(SweepMotion sweep_motion) {
 }
 
 TEST(ScanToScan, FindsTheMotionBetweenTwoScans) {
-  TwoSweeps street(swerving());
+  TwoSweeps street(testing::swerving());
   for (const SweepMotion sweep_motion : {SweepMotion::kDeskew, SweepMotion::kPerPoint}) {
     const ScanMotion motion = street.follow(with(sweep_motion), street.velocity());
     EXPECT_TRUE(motion.health.registered);
@@ -181,7 +173,7 @@ TEST(ScanToScan, FindsTheMotionBetweenTwoScans) {
 }
 
 TEST(ScanToScan, UndoingTheSweepsMotionNeedsNoGoodPrediction) {
-  TwoSweeps street(swerving());
+  TwoSweeps street(testing::swerving());
   geometry::Twist wrong = street.velocity();
   wrong[2] += 0.3;  // rad/s
   wrong[3] -= 3;    // m/s: 15 cm over half a sweep
@@ -195,7 +187,7 @@ TEST(ScanToScan, UndoingTheSweepsMotionNeedsNoGoodPrediction) {
 }
 
 TEST(ScanToScan, TheLastSweepIsDeskewedByItsMotion) {
-  TwoSweeps street(swerving());
+  TwoSweeps street(testing::swerving());
   street.sweeps[1].sharp.clear();  // planes alone; lines would hide a bent floor
   const ScanToScanOptions options = with(SweepMotion::kPerPoint);
   const double straight = street.error(street.follow(options, street.velocity()));
@@ -204,7 +196,7 @@ TEST(ScanToScan, TheLastSweepIsDeskewedByItsMotion) {
 }
 
 TEST(ScanToScan, IsTheSameForAnyNumberOfThreads) {
-  TwoSweeps street(swerving());
+  TwoSweeps street(testing::swerving());
   for (const SweepMotion sweep_motion : {SweepMotion::kDeskew, SweepMotion::kPerPoint}) {
     const auto one = street.follow(with(sweep_motion), street.velocity());
     for (const int threads : {2, 4}) {
@@ -230,7 +222,7 @@ TEST(MotionPrediction, AMeasuredTurnIsKeptAndAnUnknownIntervalKeepsAll) {
 }
 
 TEST(ScanToScan, WithNoFeaturesOrThreeTheGuessStands) {
-  TwoSweeps street(swerving());
+  TwoSweeps street(testing::swerving());
   const TimedPoints flat = street.sweeps[1].flat;
   for (const std::size_t count : {0U, 3U}) {
     street.sweeps[1] = SweepFeatures{};
@@ -246,7 +238,7 @@ TEST(ScanToScan, WithNoFeaturesOrThreeTheGuessStands) {
 }
 
 TEST(ScanToScan, BeforeAnyScanIsRememberedTheGuessStands) {
-  TwoSweeps street(swerving());
+  TwoSweeps street(testing::swerving());
   const ScanToScan stage({}, {}, true, 1);
   const auto motion =
       stage.follow(street.sweeps[1], {0.1, street.truth, street.velocity(), false}, street.ms);

@@ -8,6 +8,14 @@
 
 namespace traverse::testing {
 
+inline simulation::Drive swerving() {
+  simulation::Drive drive;
+  drive.speed_mps = 12;
+  drive.amplitude_m = 3;
+  drive.wavelength_m = 40;  // up to 0.9 rad/s
+  return drive;
+}
+
 /// Scans of a simulated drive at 10 Hz, with the true poses relative to the first.
 struct SimulatedDrive {
   simulation::Drive drive;

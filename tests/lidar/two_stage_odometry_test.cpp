@@ -40,14 +40,6 @@ TwoStageOdometryOptions preset(SweepMotion sweep_motion) {
   return options;
 }
 
-simulation::Drive swerving() {
-  simulation::Drive drive;
-  drive.speed_mps = 12;
-  drive.amplitude_m = 3;
-  drive.wavelength_m = 40;  // up to 0.9 rad/s
-  return drive;
-}
-
 /// A scan of nothing, or of the first `points` points of another one.
 sensors::LidarScan cut(const sensors::LidarScan& scan, std::size_t points) {
   sensors::LidarScan result = scan;
@@ -62,7 +54,7 @@ class TwoStage : public ::testing::TestWithParam<SweepMotion> {
  protected:
   static void SetUpTestSuite() {
     street_ = new SimulatedDrive(simulation::street(60, 1), 14, 12);
-    swerve_ = new SimulatedDrive(simulation::street(60, 1), 14, swerving());
+    swerve_ = new SimulatedDrive(simulation::street(60, 1), 14, testing::swerving());
   }
   static void TearDownTestSuite() {
     delete street_;
@@ -246,7 +238,7 @@ TEST_P(TwoStage, SaysWhyItDoesNotDeskew) {
 
 // What the gyro is for: a lidar that sees nothing for a while, in a bend.
 TEST(TwoStageOdometry, TheGyroCarriesARotationThatConstantVelocityCannotKnow) {
-  SimulatedDrive drive(simulation::street(60, 1), 16, swerving());
+  SimulatedDrive drive(simulation::street(60, 1), 16, testing::swerving());
   for (const std::size_t blind : {8U, 9U, 10U}) drive.scans[blind] = cut(drive.scans[blind], 0);
   const auto gyro = testing::simulated_gyro(drive.drive, -0.1, 1.6);
   const auto without = run(drive, preset(SweepMotion::kDeskew));
@@ -258,7 +250,7 @@ TEST(TwoStageOdometry, TheGyroCarriesARotationThatConstantVelocityCannotKnow) {
 }
 
 TEST(TwoStageOdometry, AnImuThatStopsIsMissedNotFollowed) {
-  const SimulatedDrive drive(simulation::street(60, 1), 16, swerving());
+  const SimulatedDrive drive(simulation::street(60, 1), 16, testing::swerving());
   const auto gyro = testing::simulated_gyro(drive.drive, -0.1, 0.5);
   const auto frames = run(drive, preset(SweepMotion::kDeskew), gyro);
   EXPECT_EQ(frames[4].further[8], 1);

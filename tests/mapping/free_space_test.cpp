@@ -1,12 +1,12 @@
 #include "traverse/mapping/free_space.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "traverse/geometry/angle.hpp"
 #include "traverse/simulation/analytic_scene.hpp"
 
 namespace traverse::mapping {
@@ -33,7 +33,6 @@ struct LabelledKeyframes {
 /// A drive along the street; a car comes the other way at 10 m/s, another one drives ahead at the
 /// vehicle's own speed, a keyframe every 2 m and 0.2 s.
 LabelledKeyframes drive() {
-  constexpr double kDegree = std::numbers::pi / 180;
   const AnalyticScene standing = street();
   const Eigen::Vector3d p_body_sensor(0.5, 0, 1.8);
   LabelledKeyframes result;
@@ -49,8 +48,8 @@ LabelledKeyframes drive() {
     const Eigen::Vector3d origin = keyframe.T_map_body * p_body_sensor;
     for (double elevation = -24; elevation <= 6; elevation += 1) {
       for (double azimuth = 0; azimuth < 360; azimuth += 1) {
-        const double a = (azimuth + 0.37 * k) * kDegree;
-        const double e = elevation * kDegree;
+        const double a = (azimuth + 0.37 * k) * geometry::kDegree;
+        const double e = elevation * geometry::kDegree;
         const Eigen::Vector3d u(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
         const auto still = standing.first_hit(origin, u, 60);
         const auto passing = moving.first_hit(origin, u, still ? still->distance_m : 60);

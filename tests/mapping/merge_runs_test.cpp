@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "traverse/geometry/angle.hpp"
 #include "traverse/geometry/so3.hpp"
 #include "traverse/simulation/analytic_scene.hpp"
 
@@ -15,8 +16,6 @@ namespace traverse::mapping {
 namespace {
 
 using geometry::Pose3;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// A street with houses, cars and poles at places that the seed draws.
 simulation::AnalyticScene street(unsigned seed) {
@@ -54,9 +53,10 @@ std::vector<MapKeyframe> run(const simulation::AnalyticScene& scene, const Pose3
     const Eigen::Vector3d origin = T_world_body * keyframe.p_body_sensor;
     for (double elevation = -20; elevation <= 12; elevation += 1.5) {
       for (double azimuth = 0; azimuth < 360; azimuth += 1.5) {
-        const Eigen::Vector3d u_body(std::cos(elevation * kDegree) * std::cos(azimuth * kDegree),
-                                     std::cos(elevation * kDegree) * std::sin(azimuth * kDegree),
-                                     std::sin(elevation * kDegree));
+        const Eigen::Vector3d u_body(
+            std::cos(elevation * geometry::kDegree) * std::cos(azimuth * geometry::kDegree),
+            std::cos(elevation * geometry::kDegree) * std::sin(azimuth * geometry::kDegree),
+            std::sin(elevation * geometry::kDegree));
         const auto hit = scene.first_hit(origin, T_world_body.rotation * u_body, 60);
         if (!hit) continue;
         const Eigen::Vector3d p =

@@ -1,7 +1,6 @@
 #include "traverse/mapping/occupancy_grid.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include <Eigen/Dense>
@@ -9,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <yaml-cpp/yaml.h>
 
+#include "traverse/geometry/angle.hpp"
 #include "traverse/simulation/analytic_scene.hpp"
 
 #include "temporary_folder.hpp"
@@ -18,7 +18,6 @@ namespace {
 
 /// A yard of 20 m by 12 m with a box in it, a beam to drive under and a kerb, seen from two places.
 std::vector<MapKeyframe> yard() {
-  constexpr double kDegree = std::numbers::pi / 180;
   simulation::AnalyticScene scene;
   scene.add(simulation::Rectangle{{-10, -6, 0}, {20, 0, 0}, {0, 12, 0}});
   scene.add(simulation::Rectangle{{-10, -6, 0}, {20, 0, 0}, {0, 0, 4}});
@@ -36,9 +35,9 @@ std::vector<MapKeyframe> yard() {
     const Eigen::Vector3d origin(x, 0, 1.8);
     for (double e = -40; e <= 20; e += 0.5) {
       for (double a = 0; a < 360; a += 0.25) {
-        const Eigen::Vector3d u(std::cos(e * kDegree) * std::cos(a * kDegree),
-                                std::cos(e * kDegree) * std::sin(a * kDegree),
-                                std::sin(e * kDegree));
+        const Eigen::Vector3d u(std::cos(e * geometry::kDegree) * std::cos(a * geometry::kDegree),
+                                std::cos(e * geometry::kDegree) * std::sin(a * geometry::kDegree),
+                                std::sin(e * geometry::kDegree));
         const auto hit = scene.first_hit(origin, u, 50);
         if (!hit) continue;
         const Eigen::Vector3d p = hit->distance_m * u + keyframe.p_body_sensor;

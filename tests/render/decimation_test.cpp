@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "render/no_number.hpp"
 
 namespace traverse::render {
 namespace {
 
 using ::testing::Contains;
 using ::testing::ElementsAre;
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Decimation, KeepsFirstLowestHighestAndLastOfAColumn) {
   const std::vector<Point> points{{5.1, 3}, {5.2, 9}, {5.3, 4}, {5.4, -2}, {5.5, 5}, {5.6, 1}};

@@ -1,8 +1,8 @@
 #include "traverse/render/plot/occupancy.hpp"
 
-#include <limits>
-
 #include <gtest/gtest.h>
+
+#include "render/no_number.hpp"
 
 namespace traverse::render {
 namespace {
@@ -15,7 +15,6 @@ TEST(Occupancy, ALineTakesThePlacesBetweenItsPoints) {
 }
 
 TEST(Occupancy, AnInterruptedLineDoesNot) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   Occupancy occupancy(200, 100);
   occupancy.add_line(std::vector<Point>{{0, 50}, {kNone, kNone}, {199, 50}});
   EXPECT_TRUE(occupancy.is_free({90, 40, 110, 60}));

@@ -21,16 +21,16 @@
 #include "traverse/render/renderer.hpp"
 
 #include "render/drawing_checks.hpp"
+#include "render/no_number.hpp"
 #include "render/sample_trajectories.hpp"
 
 namespace traverse::render {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr float kNoFloat = std::numeric_limits<float>::quiet_NaN();
 
-const Caption kCaption{"", "APE rmse 0.184 m ± 0.02, SE(3)-aligned, 108 pairs",
-                       "2011_09_26_drive_0001", "floam", "2025-11-22"};
+const Caption kShortCaption{"", "APE rmse 0.184 m ± 0.02, SE(3)-aligned, 108 pairs",
+                            "2011_09_26_drive_0001", "floam", "2025-11-22"};
 const Caption kLongCaption{
     "東京 Большая улица — a title that is much longer than any page is wide, and then some more "
     "of it",
@@ -40,7 +40,7 @@ using Picture = std::function<Drawing(const Caption&, const Style&)>;
 
 void expect_good(const Picture& picture) {
   static Renderer renderer;
-  static const std::vector<Caption> captions{kCaption, kLongCaption, Caption{}};
+  static const std::vector<Caption> captions{kShortCaption, kLongCaption, Caption{}};
   for (const auto& [width, height] :
        {std::pair{1600, 1000}, {800, 500}, {200, 150}, {1500, 300}, {300, 900}, {40, 30}}) {
     for (const Caption& caption : captions) {

@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include "render/no_number.hpp"
+
 namespace traverse::render {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Range, LeavesOutWhatIsNotFinite) {
   const std::vector<double> values{kNone, 3, -2, std::numeric_limits<double>::infinity()};

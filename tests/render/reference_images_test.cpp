@@ -79,24 +79,27 @@ struct Street {
   MapPoints points() const { return {x, y, z, Eigen::Vector3d::Zero()}; }
 };
 
-const Caption kCaption{"A reference picture", "made by a test", "street", "none", "2026-01-02"};
+const Caption kReferenceCaption{"A reference picture", "made by a test", "street", "none",
+                                "2026-01-02"};
 
 TEST(ReferenceImages, MapFromAbove) {
   const Street street;
-  compare_with_reference(map_from_above(street.points(), {}, &street.way, kCaption, small()),
-                         "map-from-above");
+  compare_with_reference(
+      map_from_above(street.points(), {}, &street.way, kReferenceCaption, small()),
+      "map-from-above");
 }
 
 TEST(ReferenceImages, MapInPerspective) {
   const Street street;
-  compare_with_reference(map_in_perspective(street.points(), {}, street.way, kCaption, small(true)),
-                         "map-in-perspective");
+  compare_with_reference(
+      map_in_perspective(street.points(), {}, street.way, kReferenceCaption, small(true)),
+      "map-in-perspective");
 }
 
 TEST(ReferenceImages, MapWithNorth) {
   const Street street;
-  compare_with_reference(map_from_above(street.points(), {}, &street.way, kCaption, small(true),
-                                        Eigen::Vector3d(-0.5, 1, 0)),
+  compare_with_reference(map_from_above(street.points(), {}, &street.way, kReferenceCaption,
+                                        small(true), Eigen::Vector3d(-0.5, 1, 0)),
                          "map-with-north");
 }
 
@@ -116,7 +119,7 @@ TEST(ReferenceImages, ScanMatches) {
     kind.none.push_back(0);
   }
   compare_with_reference(scan_matches({street.points(), on_lines.matches(), on_planes.matches()},
-                                      street.way, kCaption, small()),
+                                      street.way, kReferenceCaption, small()),
                          "scan-matches");
 }
 
@@ -129,17 +132,17 @@ TEST(ReferenceImages, TimeSeriesAndViolins) {
   }
   TimeSeries series;
   series.panels.push_back({"error", "m", {{"", times, values}}, Level{0.07, "rmse 0.07 m"}});
-  compare_with_reference(time_series(series, kCaption, small()), "time-series");
+  compare_with_reference(time_series(series, kReferenceCaption, small()), "time-series");
   const std::vector<Sampled> sampled{{values, "error", "m"}, {times, "time", "s"}};
-  compare_with_reference(violins(sampled, kCaption, small(true)), "violins");
+  compare_with_reference(violins(sampled, kReferenceCaption, small(true)), "violins");
 }
 
 TEST(Violins, TellsWhereThereIsNothing) {
-  EXPECT_NO_THROW(violins({}, kCaption, small()));
+  EXPECT_NO_THROW(violins({}, kReferenceCaption, small()));
   const std::vector<double> none;
   const std::vector<double> same(30, 2.0);
   const std::vector<Sampled> sampled{{none, "nothing", "m"}, {same, "constant", "m"}};
-  EXPECT_NO_THROW(violins(sampled, kCaption, small()));
+  EXPECT_NO_THROW(violins(sampled, kReferenceCaption, small()));
 }
 
 TEST(MapInPerspective, StandsWithoutPointsAndWithoutAWay) {

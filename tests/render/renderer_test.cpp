@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <thread>
@@ -10,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "render/no_number.hpp"
 #include "render/sample_drawing.hpp"
 
 namespace traverse::render {
@@ -118,7 +118,6 @@ TEST(Renderer, DashesKeepTheirLengthsAroundCorners) {
 }
 
 TEST(Renderer, PointsThatAreNotFiniteInterruptALine) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   Drawing drawing = empty_drawing(100, 40);
   drawing.items.push_back({line({{10, 20}, {30, 20}, {kNone, 20}, {60, 20}, {90, 20}}, 4), {}});
   drawing.items.push_back({Disc{{kNone, 5}, 3, kBlue, 1}, {}});

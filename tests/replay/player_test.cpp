@@ -14,12 +14,12 @@
 namespace traverse::replay {
 namespace {
 
-constexpr std::size_t kFrames = 16;
+constexpr std::size_t kFramesPlayed = 16;
 
 class PlayerTest : public ::testing::Test {
  protected:
   PlayerTest() {
-    testing::write_simulated_rawlog(folder_ / "street.rawlog", kFrames);
+    testing::write_simulated_rawlog(folder_ / "street.rawlog", kFramesPlayed);
     PlayerOptions options;
     options.preset.assignments = {"start.slowest_mps=8", "start.fastest_mps=12",
                                   "start.step_mps=4"};
@@ -48,7 +48,7 @@ class PlayerTest : public ::testing::Test {
 TEST_F(PlayerTest, ShowsTheFirstFrameAndIndexesTheRest) {
   EXPECT_TRUE(shows(0));
   EXPECT_TRUE(eventually([](const PlayerStatus& s) { return s.frames_complete; }));
-  EXPECT_EQ(player_->status().frames, kFrames);
+  EXPECT_EQ(player_->status().frames, kFramesPlayed);
   EXPECT_GT(player_->shown()->scan.points_body.size(), 1000U);
   EXPECT_EQ(player_->shown()->scan.feature_class.size(), player_->shown()->scan.points_body.size());
   EXPECT_EQ(player_->shown()->scan.ring.size(), player_->shown()->scan.points_body.size());
@@ -60,13 +60,13 @@ TEST_F(PlayerTest, PlaysToTheEndOnceAndKeepsEveryFrame) {
     c.set_unlimited(true);
     c.play();
   });
-  EXPECT_TRUE(shows(kFrames - 1));
+  EXPECT_TRUE(shows(kFramesPlayed - 1));
   const auto past = player_->past(0);
-  ASSERT_EQ(past.size(), kFrames);
-  for (std::size_t i = 0; i < kFrames; ++i) EXPECT_EQ(past[i].number, i);
+  ASSERT_EQ(past.size(), kFramesPlayed);
+  for (std::size_t i = 0; i < kFramesPlayed; ++i) EXPECT_EQ(past[i].number, i);
   ASSERT_TRUE(past.back().error_m);
   EXPECT_LT(*past.back().error_m, 0.3);
-  EXPECT_EQ(player_->reference_in_map().size(), kFrames);
+  EXPECT_EQ(player_->reference_in_map().size(), kFramesPlayed);
   EXPECT_GT(player_->choose_map({0, 0, 0}, 5000)->points.size(), 3000U);
 }
 

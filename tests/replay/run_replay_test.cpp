@@ -14,13 +14,13 @@
 namespace traverse::replay {
 namespace {
 
-constexpr std::size_t kFrames = 14;
+constexpr std::size_t kFramesOfRun = 14;
 
 /// A run of the default preset on a part of a street, and its folder.
 class RunReplay : public ::testing::Test {
  protected:
   RunReplay() {
-    testing::write_simulated_rawlog(file_, kFrames);
+    testing::write_simulated_rawlog(file_, kFramesOfRun);
     pipeline::PresetRequest request;
     request.assignments = {"start.slowest_mps=8", "start.fastest_mps=12"};
     const Recording recording = Recording::open(file_, testing::open_options());

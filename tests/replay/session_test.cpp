@@ -13,7 +13,7 @@
 namespace traverse::replay {
 namespace {
 
-constexpr std::size_t kFrames = 24;
+constexpr std::size_t kFramesOfSession = 24;
 
 /// All that can be seen of an estimator at a frame, but for wall times.
 struct Seen {
@@ -69,7 +69,8 @@ struct Case {
 class SessionTest : public ::testing::TestWithParam<Case> {
  protected:
   SessionTest() {
-    testing::write_simulated_rawlog(folder_ / "street.rawlog", kFrames, GetParam().gzip_level);
+    testing::write_simulated_rawlog(folder_ / "street.rawlog", kFramesOfSession,
+                                    GetParam().gzip_level);
     recording_ = Recording::open(folder_ / "street.rawlog", testing::open_options());
   }
 
@@ -92,7 +93,7 @@ class SessionOfAnyPreset : public SessionTest {};
 TEST_P(SessionOfAnyPreset, AFrameIsTheSameHoweverOneArrivedThere) {
   std::vector<Seen> played;
   Session straight = session();
-  for (std::size_t i = 0; i < kFrames; ++i) {
+  for (std::size_t i = 0; i < kFramesOfSession; ++i) {
     ASSERT_EQ(straight.go_to(i, go_on), Session::Outcome::kThere);
     played.push_back(look_at(straight));
   }
@@ -101,7 +102,7 @@ TEST_P(SessionOfAnyPreset, AFrameIsTheSameHoweverOneArrivedThere) {
 
   Session jumping = session();
   std::mt19937 random(7);
-  std::uniform_int_distribution<std::size_t> any(0, kFrames - 1);
+  std::uniform_int_distribution<std::size_t> any(0, kFramesOfSession - 1);
   for (int jump = 0; jump < 8; ++jump) {
     const std::size_t frame = any(random);
     ASSERT_EQ(jumping.go_to(frame, go_on), Session::Outcome::kThere);
@@ -115,7 +116,7 @@ TEST_P(SessionOfAnyPreset, AFrameIsTheSameHoweverOneArrivedThere) {
 
 TEST_P(SessionOfAnyPreset, SaysHowLargeItsCheckpointsAre) {
   Session session = this->session();
-  session.go_to(kFrames - 1, go_on);
+  session.go_to(kFramesOfSession - 1, go_on);
   // The map is the largest part: tens of bytes for each of its thousands of points.
   EXPECT_GT(session.estimator().bytes(), 30 * session.estimator().local_map().size());
   EXPECT_GT(session.checkpoints().bytes(), session.estimator().bytes());
@@ -149,7 +150,7 @@ TEST_P(SessionTest, BeyondTheEndIsTheLastFrame) {
   Session session = this->session();
   EXPECT_EQ(session.go_to(1000, go_on), Session::Outcome::kEnd);
   ASSERT_TRUE(session.frame());
-  EXPECT_EQ(session.frame()->number, kFrames - 1);
+  EXPECT_EQ(session.frame()->number, kFramesOfSession - 1);
   EXPECT_EQ(session.go_to(3, go_on), Session::Outcome::kThere);
 }
 

@@ -11,7 +11,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 /// The section alone, with a template that shows what it was given.
-std::string rendered(const RunData& run) {
+std::string rendered_factors(const RunData& run) {
   Model model;
   add_factors(run, model);
   kainjow::mustache::mustache text(
@@ -39,15 +39,15 @@ optimization::JacobianAudit made_audit(bool passed) {
 TEST(FactorsSection, ShowsTheDifferencesAndWhetherTheyPass) {
   RunData run;
   run.jacobians = made_audit(true);
-  EXPECT_THAT(rendered(run),
+  EXPECT_THAT(rendered_factors(run),
               AllOf(HasSubstr("has factors good every analytic Jacobian is within 1e-09 of"),
                     HasSubstr("200 random"), HasSubstr("line vector: r = u x (q - c)"),
                     HasSubstr("at least 0.500 from zero residual"),
                     HasSubstr("line vector;right;rotation;27.0;1.00e-14;1.00e-15;"
                               "1.00e-10;2.00e-11;pass;")));
   run.jacobians = made_audit(false);
-  EXPECT_THAT(rendered(run), AllOf(HasSubstr("fail a Jacobian is wrong"), HasSubstr("FAIL;"),
-                                   Not(HasSubstr("every analytic"))));
+  EXPECT_THAT(rendered_factors(run), AllOf(HasSubstr("fail a Jacobian is wrong"),
+                                           HasSubstr("FAIL;"), Not(HasSubstr("every analytic"))));
 }
 
 TEST(FactorsSection, ComparesTheDerivativesOfEachCase) {
@@ -67,7 +67,7 @@ TEST(FactorsSection, ComparesTheDerivativesOfEachCase) {
   }
   run.factor_bench = bench;
   EXPECT_THAT(
-      rendered(run),
+      rendered_factors(run),
       AllOf(HasSubstr("a street, frame 10"),
             HasSubstr("line vector;50.0 ± 2.0;400.0 ± 16.0;800.0 ± 32.0;8.00;16.0;"),
             HasSubstr("line vector + plane signed;1.00 ± 0.00;8.00 ± 0.00;16.0 ± 0.0;8.00;16.0;"
@@ -75,7 +75,7 @@ TEST(FactorsSection, ComparesTheDerivativesOfEachCase) {
 }
 
 TEST(FactorsSection, IsNotThereWithoutFactors) {
-  EXPECT_THAT(rendered(RunData{}), Not(HasSubstr("has factors")));
+  EXPECT_THAT(rendered_factors(RunData{}), Not(HasSubstr("has factors")));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-std::string rendered(const RunData& run) {
+std::string rendered_loops(const RunData& run) {
   Model model;
   add_loops(run, model);
   kainjow::mustache::mustache text(
@@ -37,7 +37,7 @@ TEST(LoopsSection, CountsWhatBecameOfTheCandidates) {
   run.loops = {made_loop(slam::LoopVerdict::kAccepted, 0.7, 6),
                made_loop(slam::LoopVerdict::kAccepted, 0.8, 30),
                made_loop(slam::LoopVerdict::kLittleOverlap, 0.2, 0)};
-  EXPECT_THAT(rendered(run),
+  EXPECT_THAT(rendered_loops(run),
               AllOf(HasSubstr("has loops 2 of 3 candidates were accepted"),
                     HasSubstr("accepted;2;0;0.800;"), HasSubstr("little overlap;1;0;0.200;"),
                     HasSubstr("2;3.00;5.00;1;")));
@@ -47,11 +47,11 @@ TEST(LoopsSection, SaysThatNothingWasClosed) {
   RunData run;
   run.odometry_evaluation.emplace();
   run.loops = {made_loop(slam::LoopVerdict::kOdometry, 0, 0)};
-  EXPECT_THAT(rendered(run), HasSubstr("None of 1 candidates was accepted"));
+  EXPECT_THAT(rendered_loops(run), HasSubstr("None of 1 candidates was accepted"));
 }
 
 TEST(LoopsSection, IsNotThereForOdometryAlone) {
-  EXPECT_THAT(rendered(RunData{}), Not(HasSubstr("has loops")));
+  EXPECT_THAT(rendered_loops(RunData{}), Not(HasSubstr("has loops")));
 }
 
 }  // namespace

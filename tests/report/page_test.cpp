@@ -147,7 +147,8 @@ TEST(ReportJson, AgreesWithEvaluationAndFrames) {
   const Json json = run.model().model.json;
   const auto& ape = data.evaluation.comparison->ape.front();
   EXPECT_EQ(json["figures"]["ape_rmse_m"]["value"], ape.statistics.rmse);
-  EXPECT_EQ(json["figures"]["frame_median_ms"]["value"], data.record["timing_ms"]["frame_median"]);
+  EXPECT_EQ(json["figures"]["frame_median_ms"]["value"],
+            data.record["timing_ms"]["frame_median"].get<double>());
   const auto chart = std::find_if(json["charts"].begin(), json["charts"].end(),
                                   [](const Json& item) { return item["id"] == "ape"; });
   ASSERT_NE(chart, json["charts"].end());

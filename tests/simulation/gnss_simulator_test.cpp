@@ -2,9 +2,10 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <gtest/gtest.h>
+
+#include "traverse/geometry/angle.hpp"
 
 #include "simulation/motion_settings.hpp"
 
@@ -24,14 +25,13 @@ Place plain_and_hall() {
 
 /// East, north and up of a fix by degrees and the ellipsoid's radii: good to millimetres here.
 Vector3d local(const sensors::GnssFix& fix, const GnssSettings& s) {
-  constexpr double kDegree = std::numbers::pi / 180;
   constexpr double a = 6378137, e2 = 0.00669437999014;
-  const double sine = std::sin(s.latitude_deg * kDegree);
+  const double sine = std::sin(s.latitude_deg * geometry::kDegree);
   const double n = a / std::sqrt(1 - e2 * sine * sine);
   const double m = a * (1 - e2) / std::pow(1 - e2 * sine * sine, 1.5);
-  return {(fix.longitude_deg - s.longitude_deg) * kDegree * (n + s.altitude_m) *
-              std::cos(s.latitude_deg * kDegree),
-          (fix.latitude_deg - s.latitude_deg) * kDegree * (m + s.altitude_m),
+  return {(fix.longitude_deg - s.longitude_deg) * geometry::kDegree * (n + s.altitude_m) *
+              std::cos(s.latitude_deg * geometry::kDegree),
+          (fix.latitude_deg - s.latitude_deg) * geometry::kDegree * (m + s.altitude_m),
           fix.altitude_m - s.altitude_m};
 }
 

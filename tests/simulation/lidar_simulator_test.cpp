@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "traverse/geometry/angle.hpp"
+
 #include "simulation/motion_settings.hpp"
 
 namespace traverse::simulation {
@@ -110,10 +112,10 @@ TEST(LidarSimulator, EachPointHasTheAngleAndTheTimeOfItsBeam) {
   const sensors::LidarProfile profile = profile_of("vlp16");
   const LidarSimulator lidar = lidar_in(town, profile);
   const sensors::LidarScan scan = lidar.scan(40);
-  constexpr double kDegree = std::numbers::pi / 180;
   float latest = -1;
   for (std::size_t i = 0; i < scan.size(); ++i) {
-    const double elevation = std::atan2(scan.z[i], std::hypot(scan.x[i], scan.y[i])) / kDegree;
+    const double elevation =
+        std::atan2(scan.z[i], std::hypot(scan.x[i], scan.y[i])) / geometry::kDegree;
     EXPECT_NEAR(elevation, profile.elevations_deg[scan.ring[i]], 1e-4);
     EXPECT_GE(scan.time[i], 0);
     EXPECT_LT(scan.time[i], 0.1001);

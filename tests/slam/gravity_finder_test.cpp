@@ -2,13 +2,13 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <random>
 #include <vector>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "traverse/geometry/angle.hpp"
 #include "traverse/geometry/so3.hpp"
 #include "traverse/simulation/imu_simulator.hpp"
 
@@ -20,8 +20,6 @@ namespace {
 using simulation::ImuSettings;
 using simulation::ImuSimulator;
 using simulation::VehicleMotion;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// A drive over hills with corners and a stop, seen by an exact odometry ten times a second and by
 /// an IMU that sits elsewhere and is turned.
@@ -70,7 +68,7 @@ struct HillyDrive {
     return {options, T_body_lidar.inverse() * imu.mounting.T_body_sensor()};
   }
   double error_deg(const MeasuredUp& up) const {
-    return std::acos(std::min(1.0, up.up_odom.dot(up_odom()))) / kDegree;
+    return std::acos(std::min(1.0, up.up_odom.dot(up_odom()))) / geometry::kDegree;
   }
 };
 
@@ -114,8 +112,8 @@ TEST(GravityFinder, SigmaIsThatOfTheErrors) {
   for (int repeat = 0; repeat < 20; ++repeat) {
     GravityFinder finder = drive.finder(options);
     for (const MeasuredUp& up : drive.ups(finder)) {
-      EXPECT_GT(up.sigma_rad, 0.1 * kDegree);
-      chi2 += std::pow(drive.error_deg(up) * kDegree / up.sigma_rad, 2);
+      EXPECT_GT(up.sigma_rad, 0.1 * geometry::kDegree);
+      chi2 += std::pow(drive.error_deg(up) * geometry::kDegree / up.sigma_rad, 2);
       freedom += 2;
     }
   }

@@ -25,36 +25,36 @@ Json to_json(const RunLimits& limits) {
           {"attempts", limits.attempts}};
 }
 
-RunLimits limits_of(const Json& json) {
+RunLimits limits_of(const Json& record) {
   RunLimits limits;
-  json.at("time_s").get_to(limits.time_s);
-  json.at("memory_mb").get_to(limits.memory_mb);
-  json.at("threads").get_to(limits.threads);
-  json.at("attempts").get_to(limits.attempts);
+  record.at("time_s").get_to(limits.time_s);
+  record.at("memory_mb").get_to(limits.memory_mb);
+  record.at("threads").get_to(limits.threads);
+  record.at("attempts").get_to(limits.attempts);
   return limits;
 }
 
-Completion completion_of(const Json& json) {
+Completion completion_of(const Json& record) {
   Completion completion;
-  json.at("id").get_to(completion.id);
-  json.at("identity").get_to(completion.identity);
-  completion.outcome = outcome_of(json.at("outcome"));
-  json.at("reason").get_to(completion.reason);
-  json.at("exit_status").get_to(completion.exit_status);
-  json.at("signal").get_to(completion.signal);
-  json.at("attempts").get_to(completion.attempts);
-  json.at("host").get_to(completion.host);
-  json.at("started_utc").get_to(completion.started_utc);
-  json.at("wall_s").get_to(completion.wall_s);
-  json.at("cpu_s").get_to(completion.cpu_s);
-  json.at("peak_memory_mb").get_to(completion.peak_memory_mb);
-  completion.limits = limits_of(json.at("limits"));
-  json.at("has_report").get_to(completion.has_report);
-  json.at("trajectory_sha256").get_to(completion.trajectory_sha256);
-  for (const auto& [name, value] : json.at("metrics").items()) {
+  record.at("id").get_to(completion.id);
+  record.at("identity").get_to(completion.identity);
+  completion.outcome = outcome_of(record.at("outcome"));
+  record.at("reason").get_to(completion.reason);
+  record.at("exit_status").get_to(completion.exit_status);
+  record.at("signal").get_to(completion.signal);
+  record.at("attempts").get_to(completion.attempts);
+  record.at("host").get_to(completion.host);
+  record.at("started_utc").get_to(completion.started_utc);
+  record.at("wall_s").get_to(completion.wall_s);
+  record.at("cpu_s").get_to(completion.cpu_s);
+  record.at("peak_memory_mb").get_to(completion.peak_memory_mb);
+  completion.limits = limits_of(record.at("limits"));
+  record.at("has_report").get_to(completion.has_report);
+  record.at("trajectory_sha256").get_to(completion.trajectory_sha256);
+  for (const auto& [name, value] : record.at("metrics").items()) {
     completion.metrics.emplace_back(name, value.get<double>());
   }
-  json.at("last_lines").get_to(completion.last_lines);
+  record.at("last_lines").get_to(completion.last_lines);
   return completion;
 }
 

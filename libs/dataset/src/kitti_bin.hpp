@@ -6,6 +6,8 @@
 
 namespace traverse::dataset {
 
+inline constexpr const char* kVelodyne = "velodyne";  ///< the lidar's label in both layouts
+
 /// Reads a KITTI .bin file: float32 little-endian x, y, z, intensity of one point after the other.
 /// Stamp and sensor are left to the caller.
 /// \throws files::InputError if it cannot be read or does not hold whole points.

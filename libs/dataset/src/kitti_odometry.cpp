@@ -10,8 +10,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kLidar = "velodyne";
-
 /// Poses of the camera: poses.txt in the folder (SemanticKITTI), or dataset/poses/00.txt for
 /// dataset/sequences/00 (the benchmark).
 std::optional<ReferenceFile> find_poses(const fs::path& folder) {
@@ -39,9 +37,9 @@ std::unique_ptr<Source> open_kitti_odometry(const fs::path& folder, const OpenOp
 
   ProfileChoice profile = installed_profile(options.share_folder, "hdl64e_kitti");
   profile.reason += ", default for KITTI";
-  mount_lidar(info, kLidar, choose_profile(statements, options.share_folder, std::move(profile)),
+  mount_lidar(info, kVelodyne, choose_profile(statements, options.share_folder, std::move(profile)),
               statements);
-  recording.lidar = kLidar;
+  recording.lidar = kVelodyne;
 
   const std::vector<fs::path> files = files_with_extension(folder / "velodyne", ".bin");
   PoseStamps pose_stamps;

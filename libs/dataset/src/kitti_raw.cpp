@@ -18,7 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kLidar = "velodyne";
 constexpr const char* kImu = "oxts_imu";
 constexpr const char* kGnss = "oxts_gnss";
 
@@ -122,9 +121,9 @@ std::unique_ptr<Source> open_kitti_raw(const fs::path& folder, const OpenOptions
 
   ProfileChoice profile = installed_profile(options.share_folder, "hdl64e_kitti");
   profile.reason += ", default for KITTI";
-  mount_lidar(info, kLidar, choose_profile(statements, options.share_folder, std::move(profile)),
+  mount_lidar(info, kVelodyne, choose_profile(statements, options.share_folder, std::move(profile)),
               statements);
-  recording.lidar = kLidar;
+  recording.lidar = kVelodyne;
 
   const fs::path points = folder / "velodyne_points";
   const std::vector<fs::path> files = files_with_extension(points / "data", ".bin");

@@ -153,16 +153,14 @@ LidarScan take_scan(const CObservationRotatingScan& observation,
   for (std::size_t column = 0; column < columns.count; ++column) {
     const double azimuth = columns.first_azimuth + columns.step * static_cast<double>(column);
     for (std::size_t row = 0; row < rows; ++row) {
-      const auto r = static_cast<int>(row);
-      const auto c = static_cast<int>(column);
-      if (image(r, c) == 0) continue;  // no return
-      const double range = image(r, c) * observation.rangeResolution;
+      if (image(row, column) == 0) continue;  // no return
+      const double range = image(row, column) * observation.rangeResolution;
       const double elevation = elevations_deg[row] / kDegreesPerRadian;
       scan.x.push_back(static_cast<float>(range * std::cos(elevation) * std::cos(azimuth)));
       scan.y.push_back(static_cast<float>(range * std::cos(elevation) * std::sin(azimuth)));
       scan.z.push_back(static_cast<float>(range * std::sin(elevation)));
       scan.ring.push_back(static_cast<std::uint16_t>(row));
-      if (has_intensity) scan.intensity.push_back(observation.intensityImage(r, c));
+      if (has_intensity) scan.intensity.push_back(observation.intensityImage(row, column));
       if (observation.sweepDuration > 0) {
         scan.time.push_back(
             static_cast<float>(observation.sweepDuration * static_cast<double>(column) /
@@ -195,7 +193,7 @@ PlanarScan planar_scan(const CObservationRotatingScan& observation) {
   scan.azimuth_step = columns.step;
   scan.max_range_m = observation.maxRange;
   for (std::size_t i = 0; i < columns.count; ++i) {
-    const std::uint16_t units = observation.rangeImage(0, static_cast<int>(i));
+    const std::uint16_t units = observation.rangeImage(0, i);
     scan.ranges_m.push_back(units == 0 ? kNoReturn
                                        : static_cast<float>(units * observation.rangeResolution));
   }

@@ -117,14 +117,15 @@ class LineParser {
 
 void mount(RecordingInfo& info, const Statements& statements,
            const std::vector<ListedRecord>& records) {
-  for (const auto& [label, kind] : {std::pair{kImu, SensorKind::kImu},
-                                    {kGnss, SensorKind::kGnss},
-                                    {kWheels, SensorKind::kWheels}}) {
+  for (const auto& stream : {std::pair{kImu, SensorKind::kImu},
+                             {kGnss, SensorKind::kGnss},
+                             {kWheels, SensorKind::kWheels}}) {
     const bool is_there = std::any_of(records.begin(), records.end(), [&](const auto& record) {
-      return record.measurement && sensors::sensor_of(*record.measurement) == label;
+      return record.measurement && sensors::sensor_of(*record.measurement) == stream.first;
     });
     if (!is_there) continue;
-    info.rig.sensors.push_back({label, kind, geometry::Pose3::identity(), std::nullopt});
+    info.rig.sensors.push_back(
+        {stream.first, stream.second, geometry::Pose3::identity(), std::nullopt});
     apply_vehicle(statements, info.rig.sensors.back());
   }
 }

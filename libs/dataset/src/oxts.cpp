@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/numbers.hpp"
 #include "traverse/files/text_file.hpp"
+#include "traverse/geometry/angle.hpp"
 
 namespace traverse::dataset {
 
@@ -21,7 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kEarthRadius = 6378137;  // metres
-constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 
 const std::vector<std::string>& standard_names() {
   static const std::vector<std::string> kNames{
@@ -47,8 +46,8 @@ std::vector<std::string> read_names(const fs::path& dataformat) {
 Pose3 mercator_pose(const OxtsPacket& packet, double scale) {
   Pose3 pose;
   pose.translation = {
-      scale * packet.longitude_deg * kRadiansPerDegree * kEarthRadius,
-      scale * kEarthRadius * std::log(std::tan((90 + packet.latitude_deg) * kRadiansPerDegree / 2)),
+      scale * packet.longitude_deg * geometry::kDegree * kEarthRadius,
+      scale * kEarthRadius * std::log(std::tan((90 + packet.latitude_deg) * geometry::kDegree / 2)),
       packet.altitude_m};
   pose.rotation = (Eigen::AngleAxisd(packet.yaw, Eigen::Vector3d::UnitZ()) *
                    Eigen::AngleAxisd(packet.pitch, Eigen::Vector3d::UnitY()) *
@@ -115,7 +114,7 @@ sensors::GnssFix gnss_fix(const OxtsPacket& packet, const std::string& label) {
   fix.latitude_deg = packet.latitude_deg;
   fix.longitude_deg = packet.longitude_deg;
   fix.altitude_m = packet.altitude_m;
-  const double heading_deg = 90 - packet.yaw / kRadiansPerDegree;
+  const double heading_deg = 90 - packet.yaw / geometry::kDegree;
   fix.heading_deg = heading_deg - 360 * std::floor(heading_deg / 360);
   // The unit gives one number, for north and east; up is taken to be as good.
   const double variance = packet.position_accuracy_m * packet.position_accuracy_m;
@@ -126,7 +125,7 @@ sensors::GnssFix gnss_fix(const OxtsPacket& packet, const std::string& label) {
 geometry::Trajectory mercator_trajectory(const std::vector<OxtsPacket>& packets) {
   geometry::Trajectory T_map_imu;
   if (packets.empty()) return T_map_imu;
-  const double scale = std::cos(packets.front().latitude_deg * kRadiansPerDegree);
+  const double scale = std::cos(packets.front().latitude_deg * geometry::kDegree);
   const Pose3 T_first_mercator = mercator_pose(packets.front(), scale).inverse();
   for (const OxtsPacket& packet : packets) {
     T_map_imu.push_back(packet.stamp, T_first_mercator * mercator_pose(packet, scale));

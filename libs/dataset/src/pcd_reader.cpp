@@ -65,7 +65,7 @@ void for_each_field(const FileCursor& file, PcdHeader& header,
   for (std::size_t i = 0; i < header.fields.size(); ++i) set(header.fields[i], words[i + 1]);
 }
 
-PcdHeader read_header(FileCursor& file) {
+PcdHeader read_pcd_header(FileCursor& file) {
   PcdHeader header;
   std::size_t width = 0;
   std::size_t height = 1;
@@ -216,7 +216,7 @@ PointCloud read_ascii(FileCursor& file, const PcdHeader& header) {
 }  // namespace
 
 PointCloud read_pcd(FileCursor& file) {
-  const PcdHeader header = read_header(file);
+  const PcdHeader header = read_pcd_header(file);
   if (header.data == "ascii") return read_ascii(file, header);
   if (header.data == "binary") {
     check_size(file, header.points, header.point_bytes(), file.rest().size());

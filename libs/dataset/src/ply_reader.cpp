@@ -87,7 +87,7 @@ PlyProperty parse_property(const FileCursor& file, const std::vector<std::string
   throw file.error("property TYPE NAME or property list TYPE TYPE NAME", "another");
 }
 
-PlyHeader read_header(FileCursor& file) {
+PlyHeader read_ply_header(FileCursor& file) {
   PlyHeader header;
   file.next_line();  // "ply"
   while (const auto line = file.next_line()) {
@@ -190,7 +190,7 @@ PointCloud read_points(FileCursor& file, const PlyElement& vertex, PlyFormat for
 }  // namespace
 
 PointCloud read_ply(FileCursor& file) {
-  const PlyHeader header = read_header(file);
+  const PlyHeader header = read_ply_header(file);
   for (const PlyElement& element : header.elements) {
     if (element.name == "vertex") return read_points(file, element, header.format);
     skip_element(file, element, header.format);

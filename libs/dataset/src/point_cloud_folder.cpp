@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
@@ -86,11 +85,11 @@ struct Example {
 
 Example find_example(const fs::path& folder, const std::vector<ScanFile>& scans) {
   std::string fault = "none";
-  for (const ScanFile& scan : scans | std::views::reverse) {
-    if (!scan.stamp) continue;
+  for (auto scan = scans.rbegin(); scan != scans.rend(); ++scan) {
+    if (!scan->stamp) continue;
     try {
-      Example example{read_point_cloud(scan.file), {}};
-      example.scan = scan_from_cloud(example.cloud, *scan.stamp, std::nullopt, scan.file);
+      Example example{read_point_cloud(scan->file), {}};
+      example.scan = scan_from_cloud(example.cloud, *scan->stamp, std::nullopt, scan->file);
       if (!example.scan.empty()) return example;
       fault = "clouds without points";
     } catch (const InputError& error) {

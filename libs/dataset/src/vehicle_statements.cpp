@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "traverse/geometry/angle.hpp"
 #include "traverse/geometry/so3.hpp"
 
 #include "statements.hpp"
@@ -19,8 +19,6 @@ using sensors::MountedSensor;
 using sensors::SensorKind;
 
 namespace {
-
-constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 
 Eigen::Vector3d vector_of(const Statements& statements, const std::string& key,
                           const std::vector<double>& values) {
@@ -72,13 +70,13 @@ VehicleStatements vehicle_statements_of(const sensors::Rig& rig) {
   v.imu_roll_pitch_yaw_deg = {0, 0, 0};
   if (const auto* imu = rig.first(SensorKind::kImu)) {
     const Eigen::Matrix3d& R = imu->T_body_sensor.rotation;
-    v.imu_roll_pitch_yaw_deg = {std::atan2(R(2, 1), R(2, 2)) / kRadiansPerDegree,
-                                -std::asin(std::clamp(R(2, 0), -1.0, 1.0)) / kRadiansPerDegree,
-                                std::atan2(R(1, 0), R(0, 0)) / kRadiansPerDegree};
+    v.imu_roll_pitch_yaw_deg = {std::atan2(R(2, 1), R(2, 2)) / geometry::kDegree,
+                                -std::asin(std::clamp(R(2, 0), -1.0, 1.0)) / geometry::kDegree,
+                                std::atan2(R(1, 0), R(0, 0)) / geometry::kDegree};
   }
   if (const auto* gnss = rig.first(SensorKind::kGnss)) {
     const Eigen::Matrix3d& R = gnss->T_body_sensor.rotation;
-    v.gnss_heading_offset_deg = std::atan2(R(1, 0), R(0, 0)) / kRadiansPerDegree;
+    v.gnss_heading_offset_deg = std::atan2(R(1, 0), R(0, 0)) / geometry::kDegree;
   }
   if (const auto* wheels = rig.first(SensorKind::kWheels); wheels && wheels->encoder) {
     v.left_m_per_pulse = wheels->encoder->left_m_per_pulse;
@@ -90,7 +88,7 @@ VehicleStatements vehicle_statements_of(const sensors::Rig& rig) {
 Eigen::Matrix3d stated_rotation(const Statements& statements, const std::string& key,
                                 const std::vector<double>& roll_pitch_yaw_deg) {
   if (roll_pitch_yaw_deg.empty()) return Eigen::Matrix3d::Identity();
-  const Eigen::Vector3d rpy = kRadiansPerDegree * vector_of(statements, key, roll_pitch_yaw_deg);
+  const Eigen::Vector3d rpy = geometry::kDegree * vector_of(statements, key, roll_pitch_yaw_deg);
   return geometry::exp_so3({0, 0, rpy.z()}) * geometry::exp_so3({0, rpy.y(), 0}) *
          geometry::exp_so3({rpy.x(), 0, 0});
 }
@@ -107,7 +105,7 @@ void apply_vehicle(const Statements& statements, MountedSensor& sensor) {
     place(statements, "vehicle.gnss.position_m", v.gnss_position_m, sensor);
     if (!statements.states("vehicle.gnss.heading_offset_deg")) return;
     sensor.T_body_sensor.rotation =
-        geometry::exp_so3({0, 0, v.gnss_heading_offset_deg * kRadiansPerDegree});
+        geometry::exp_so3({0, 0, v.gnss_heading_offset_deg * geometry::kDegree});
   }
   if (sensor.kind == SensorKind::kWheels) {
     place(statements, "vehicle.wheels.position_m", v.wheels_position_m, sensor);

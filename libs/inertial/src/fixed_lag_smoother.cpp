@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
+
+#include "traverse/geometry/angle.hpp"
 
 namespace traverse::inertial {
 
@@ -42,10 +43,9 @@ Preintegration::Matrix9 weight_of(const Preintegration& imu) {
 }  // namespace
 
 CalibrationWalk calibration_walk(const NavigationOptions& options) {
-  constexpr double kRadiansPerDegree = std::numbers::pi / 180;
   const GnssOptions& gnss = options.gnss;
   return {options.wheels.scale_walk,
-          kRadiansPerDegree * options.wheels.turn_walk_deg,
+          geometry::kDegree * options.wheels.turn_walk_deg,
           gnss.latency_walk,
           {gnss.bias_horizontal_m, gnss.bias_horizontal_m, gnss.bias_vertical_m},
           gnss.bias_s};

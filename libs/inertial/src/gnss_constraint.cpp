@@ -1,18 +1,11 @@
 #include "gnss_constraint.hpp"
 
-#include <numbers>
-
+#include "traverse/geometry/angle.hpp"
 #include "traverse/geometry/so3.hpp"
 
 #include "gated_factor.hpp"
 
 namespace traverse::inertial {
-
-namespace {
-
-constexpr double kRadiansPerDegree = std::numbers::pi / 180;
-
-}  // namespace
 
 void GnssConstraint::constrain(FixedLagSmoother& smoother, const MapFix& fix,
                                const BodyMotion& motion, const NavState::Tangent& first_sigma,
@@ -33,7 +26,7 @@ void GnssConstraint::constrain(FixedLagSmoother& smoother, const MapFix& fix,
   rejected_in_a_row_ = frame.gnss.is_rejected ? rejected_in_a_row_ + 1 : 0;
   if (frame.gnss.is_rejected) ++events["fix rejected by chi-square"];
   if (!as_pose && fix.heading) {
-    const double sigma = options_.heading_deg * kRadiansPerDegree;
+    const double sigma = options_.heading_deg * geometry::kDegree;
     frame.heading = constrain_newest(smoother, HeadingModel{*fix.heading},
                                      Covariance<HeadingModel>(sigma * sigma), gate, options_.huber);
     if (frame.heading.is_rejected) ++events["heading rejected by chi-square"];
@@ -71,7 +64,7 @@ Innovation GnssConstraint::take_pose(FixedLagSmoother& smoother, const MapFix& f
   model.T_map_body_measured.rotation = geometry::exp_so3({0, 0, *fix.heading});
   model.T_map_body_measured.translation =
       fix.p_antenna_map - model.T_map_body_measured.rotation * antenna_body_;
-  const double sigma = options_.heading_deg * kRadiansPerDegree;
+  const double sigma = options_.heading_deg * geometry::kDegree;
   Covariance<GnssPoseModel> R = Covariance<GnssPoseModel>::Zero();
   R.topLeftCorner<3, 3>() = sigma * sigma * Eigen::Matrix3d::Identity();
   R.bottomRightCorner<3, 3>() = fix.covariance;

@@ -5,6 +5,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "traverse/geometry/angle.hpp"
+
 namespace traverse::inertial {
 
 namespace {
@@ -33,7 +35,6 @@ bool is_place(const sensors::GnssFix& fix, Events& events) {
 
 MapFix in_map(const sensors::GnssFix& fix, const geodesy::LocalTangentPlane& plane,
               const GnssOptions& options, double baseline_angle, Events& events) {
-  constexpr double kRadiansPerDegree = std::numbers::pi / 180;
   MapFix result;
   result.stamp = fix.stamp;
   result.p_antenna_map = plane.to_enu({fix.latitude_deg, fix.longitude_deg, fix.altitude_m});
@@ -47,7 +48,7 @@ MapFix in_map(const sensors::GnssFix& fix, const geodesy::LocalTangentPlane& pla
     }
   }
   if (options.use_heading && fix.heading_deg && std::isfinite(*fix.heading_deg)) {
-    result.heading = std::remainder((90 - *fix.heading_deg) * kRadiansPerDegree - baseline_angle,
+    result.heading = std::remainder((90 - *fix.heading_deg) * geometry::kDegree - baseline_angle,
                                     2 * std::numbers::pi);
   }
   return result;

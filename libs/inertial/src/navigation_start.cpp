@@ -5,13 +5,13 @@
 
 #include <fmt/format.h>
 
+#include "traverse/geometry/angle.hpp"
 #include "traverse/geometry/so3.hpp"
 
 namespace traverse::inertial {
 
 namespace {
 
-constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 constexpr double kUnknownHeading = 1e-3;  // a frame of its own has its heading by definition
 
 }  // namespace
@@ -42,14 +42,14 @@ void NavigationStart::add_wheels(geometry::Stamp stamp, double forward_mps) {
 
 /// Level and biases, at rest in the origin; heading and motion are for the caller to add.
 FirstState NavigationStart::begin(geometry::Stamp stamp) {
-  constexpr double kStillTilt = 0.3 * kRadiansPerDegree;
+  constexpr double kStillTilt = 0.3 * geometry::kDegree;
   constexpr double kLeastGyroBias = 1e-5;  // of a perfect gyro
   FirstState first;
   first.state.stamp = stamp;
   first.sigma.setOnes();
   first.state.gnss_latency = gnss_.latency_s;
   first.sigma[NavState::kWheelScale] = wheels_.scale;
-  first.sigma.segment<2>(NavState::kWheelTurn).setConstant(wheels_.turn_deg * kRadiansPerDegree);
+  first.sigma.segment<2>(NavState::kWheelTurn).setConstant(wheels_.turn_deg * geometry::kDegree);
   first.sigma[NavState::kGnssLatency] = gnss_.latency_sigma_s;
   first.sigma.segment<3>(NavState::kGnssBias) << gnss_.bias_horizontal_m, gnss_.bias_horizontal_m,
       gnss_.bias_vertical_m;
@@ -67,7 +67,7 @@ FirstState NavigationStart::begin(geometry::Stamp stamp) {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   for (const auto& sample : recent_) force += sample.specific_force;
   if (!recent_.empty()) first.state.q_map_body = Eigen::Quaterniond(levelled(force));
-  first.sigma.head<2>().setConstant(options_.tilt_deg * kRadiansPerDegree);
+  first.sigma.head<2>().setConstant(options_.tilt_deg * geometry::kDegree);
   first.sigma.segment<3>(NavState::kGyroBias).setConstant(options_.gyro_bias);
   first.note =
       "level from the mean specific force, biases zero: no stand-still (" + finder_.why_not() + ")";
@@ -90,7 +90,7 @@ std::optional<FirstState> NavigationStart::at_fix(const MapFix& fix) {
 
   FirstState first = begin(fix.stamp);
   double heading = 0;
-  double heading_sigma = options_.heading_deg * kRadiansPerDegree;
+  double heading_sigma = options_.heading_deg * geometry::kDegree;
   // Over the last part of the way, so that neither turns nor a start from rest disturb much.
   const MapFix& before = fixes_[fixes_.size() > 3 ? fixes_.size() - 3 : 0];
   const double part_s = geometry::seconds_between(before.stamp, fix.stamp);

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
 #include <Eigen/Dense>
 #include <fmt/core.h>
 
+#include "traverse/geometry/angle.hpp"
 #include "traverse/geometry/se3.hpp"
 #include "traverse/pose_graph/pose_graph.hpp"
 #include "traverse/slam/place_index.hpp"
@@ -20,11 +20,9 @@ namespace traverse::mapping {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 geometry::Matrix6 covariance_of(double sigma_m, double sigma_deg) {
   geometry::Matrix6 covariance = geometry::Matrix6::Identity();
-  covariance.topLeftCorner<3, 3>() *= std::pow(sigma_deg * kDegree, 2);
+  covariance.topLeftCorner<3, 3>() *= std::pow(sigma_deg * geometry::kDegree, 2);
   covariance.bottomRightCorner<3, 3>() *= sigma_m * sigma_m;
   return covariance;
 }
@@ -146,7 +144,7 @@ class Merger {
     const geometry::Pose3 guess = at.T_map_sensor.inverse() * T_map_sensor(run, keyframe);
     const auto found =
         place(runs_[run], keyframe, at.places->submap(at.keyframe, options_.keyframes_around),
-              guess, {options_.correction_m / 2, kDegree}, options_);
+              guess, {options_.correction_m / 2, geometry::kDegree}, options_);
     if (!found) return;
     const double moved = (guess.inverse() * found->T_other_keyframe).translation.norm();
     if (moved > options_.correction_m) return;

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Dense>
+
+#include "traverse/geometry/angle.hpp"
 
 namespace traverse::mapping {
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 double azimuth_of(const Eigen::Vector3d& d) { return std::atan2(d.y(), d.x()); }
 double elevation_of(const Eigen::Vector3d& d) {
@@ -20,11 +19,12 @@ double elevation_of(const Eigen::Vector3d& d) {
 }  // namespace
 
 int RayBundle::row_of(double elevation_rad) {
-  return std::clamp(static_cast<int>(elevation_rad / kDegree + kRows / 2.0), 0, kRows - 1);
+  return std::clamp(static_cast<int>(elevation_rad / geometry::kDegree + kRows / 2.0), 0,
+                    kRows - 1);
 }
 
 int RayBundle::column_of(double azimuth_rad) {
-  const int column = static_cast<int>(std::floor(azimuth_rad / kDegree));
+  const int column = static_cast<int>(std::floor(azimuth_rad / geometry::kDegree));
   return ((column % kColumns) + kColumns) % kColumns;
 }
 
@@ -53,7 +53,7 @@ std::optional<RayBundle::Pass> RayBundle::nearest(const Eigen::Vector3d& p_map,
   const Eigen::Vector3d d = p_map - origin_;
   const double range = d.norm();
   if (range < radius_m) return std::nullopt;
-  const int reach = std::min(kMostBins, 1 + static_cast<int>(radius_m / range / kDegree));
+  const int reach = std::min(kMostBins, 1 + static_cast<int>(radius_m / range / geometry::kDegree));
   const int row = row_of(elevation_of(d));
   const int column = column_of(azimuth_of(d));
   std::optional<Pass> best;

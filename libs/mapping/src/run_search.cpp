@@ -6,15 +6,10 @@
 
 #include <Eigen/Dense>
 
+#include "traverse/geometry/angle.hpp"
 #include "traverse/geometry/so3.hpp"
 
 namespace traverse::mapping {
-
-namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
-
-}  // namespace
 
 RunSearch::RunSearch(std::vector<KnownKeyframe> known, const MergeOptions& options)
     : known_(std::move(known)),
@@ -25,7 +20,7 @@ RunSearch::RunSearch(std::vector<KnownKeyframe> known, const MergeOptions& optio
 
 std::optional<geometry::Pose3> RunSearch::place_of(
     const RunPlaces& run, const std::function<void(double)>& progress) const {
-  const slam::SearchRegion region{options_.search_m, options_.search_deg * kDegree};
+  const slam::SearchRegion region{options_.search_m, options_.search_deg * geometry::kDegree};
   const auto samples =
       std::min<std::size_t>(run.size(), static_cast<std::size_t>(options_.samples));
   std::vector<Hypothesis> hypotheses;
@@ -86,7 +81,7 @@ bool RunSearch::agree(const RunPlaces& run, const Hypothesis& one, const Hypothe
   const geometry::Pose3 difference = expected.inverse() * other.T_map_keyframe;
   const double apart = (one.T_map_keyframe.translation - other.T_map_keyframe.translation).norm();
   return difference.translation.norm() <= options_.agreement_m + kDrift * apart &&
-         geometry::angle_of(difference.rotation) <= options_.agreement_deg * kDegree;
+         geometry::angle_of(difference.rotation) <= options_.agreement_deg * geometry::kDegree;
 }
 
 /// How many keyframes, each counted once, have hypotheses that agree with one.

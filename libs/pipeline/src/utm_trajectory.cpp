@@ -1,13 +1,11 @@
 #include "traverse/pipeline/utm_trajectory.hpp"
 
-#include <numbers>
-
+#include "traverse/geometry/angle.hpp"
 #include "traverse/geometry/so3.hpp"
 
 namespace traverse::pipeline {
 
 UtmTrajectory to_utm(const geometry::Trajectory& T_map_body, const geodesy::Geodetic& origin) {
-  constexpr double kRadiansPerDegree = std::numbers::pi / 180;
   const geodesy::LocalTangentPlane map(origin);
   const geodesy::Utm first = geodesy::to_utm(origin);
   UtmTrajectory result{first.zone, first.is_north, {}};
@@ -19,7 +17,7 @@ UtmTrajectory to_utm(const geometry::Trajectory& T_map_body, const geodesy::Geod
         geodesy::LocalTangentPlane(place).R_enu_ecef() * map.R_enu_ecef().transpose();
     // A grid heading is the true one less the convergence, clockwise; counterclockwise it adds.
     const Eigen::Matrix3d R_grid_here =
-        geometry::exp_so3({0, 0, utm.convergence_deg * kRadiansPerDegree});
+        geometry::exp_so3({0, 0, utm.convergence_deg * geometry::kDegree});
     result.T_utm_body.push_back(T_map_body.stamp(k),
                                 {R_grid_here * R_here_map * pose.rotation,
                                  {utm.easting_m, utm.northing_m, utm.altitude_m}});

@@ -11,6 +11,7 @@
 
 #include "budget_check.hpp"
 #include "number_text.hpp"
+#include "series.hpp"
 
 namespace traverse::report {
 
@@ -91,9 +92,8 @@ void add_budget(const BudgetResult& result, Model& model) {
   HtmlTable table("budget", "Budget " + result.file.filename().string(),
                   {"figure", "value", "at most", "unit", "kept"});
   for (const BudgetLine& line : result.lines) {
-    table.add_row({line.label,
-                   line.value ? Cell(*line.value) : Cell(std::numeric_limits<double>::quiet_NaN()),
-                   line.limit, line.unit, line.passed() ? "pass" : "fail"});
+    table.add_row({line.label, line.value ? Cell(*line.value) : Cell(kNone), line.limit, line.unit,
+                   line.passed() ? "pass" : "fail"});
   }
   model.add_table(table);
   model.json["budget_kept"] = result.passed();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -20,8 +19,6 @@ namespace traverse::report {
 namespace {
 
 using evaluation::Relation;
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<std::size_t> matched_poses(const evaluation::Comparison& comparison) {
   std::vector<std::size_t> poses;

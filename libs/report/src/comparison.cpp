@@ -1,7 +1,6 @@
 #include "comparison.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -15,7 +14,6 @@ namespace traverse::report {
 namespace {
 
 constexpr std::size_t kStretches = 20;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<std::string> with_names(std::vector<std::string> head,
                                     const std::vector<ComparedRun>& runs) {

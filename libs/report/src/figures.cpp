@@ -1,7 +1,5 @@
 #include "figures.hpp"
 
-#include <limits>
-
 #include <fmt/format.h>
 
 #include "traverse/render/pictures/stage_times.hpp"
@@ -60,7 +58,7 @@ void add_health(const RunData& run, FigureMaker& maker) {
   // The first frame is registered in nothing: its zeros are no measurements.
   const auto column = [&](const char* name) {
     std::vector<double> values = run.frames.column(name);
-    if (!values.empty()) values.front() = std::numeric_limits<double>::quiet_NaN();
+    if (!values.empty()) values.front() = kNone;
     return values;
   };
   const std::vector<double> residual = column("residual_rms_m");

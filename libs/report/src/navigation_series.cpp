@@ -2,15 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "series.hpp"
 
 namespace traverse::report {
-
-namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
 
 std::vector<double> innovations(const pipeline::FrameTable& frames, const std::string& prefix) {
   std::vector<double> values = frames.column(prefix + "_chi2");

@@ -9,7 +9,6 @@ namespace traverse::report {
 namespace {
 
 using evaluation::Comparison;
-using evaluation::Figure;
 using evaluation::Relation;
 
 Series of_ape(const Comparison& comparison, Relation relation) {
@@ -55,12 +54,13 @@ Series of_frames(const pipeline::FrameTable& frames) {
 }  // namespace
 
 const std::vector<SeriesFigure>& series_figures() {
-  static const std::vector<SeriesFigure> figures{{"ape_rmse_m", Figure::kRmse},
-                                                 {"ape_angle_rmse_deg", Figure::kRmse},
-                                                 {"kitti_translation_percent", Figure::kMean},
-                                                 {"kitti_rotation_deg_per_100m", Figure::kMean},
-                                                 {"rpe_10_frames_rmse_m", Figure::kRmse},
-                                                 {"frame_median_ms", Figure::kMedian}};
+  static const std::vector<SeriesFigure> figures{
+      {"ape_rmse_m", evaluation::Figure::kRmse},
+      {"ape_angle_rmse_deg", evaluation::Figure::kRmse},
+      {"kitti_translation_percent", evaluation::Figure::kMean},
+      {"kitti_rotation_deg_per_100m", evaluation::Figure::kMean},
+      {"rpe_10_frames_rmse_m", evaluation::Figure::kRmse},
+      {"frame_median_ms", evaluation::Figure::kMedian}};
   return figures;
 }
 

@@ -1,7 +1,6 @@
 #include "series.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace traverse::report {
 
@@ -22,7 +21,7 @@ std::vector<double> match_times(const RunData& run) {
 }
 
 std::vector<double> for_each_pose(const RunData& run, const std::vector<double>& for_each_match) {
-  std::vector<double> values(run.estimate.size(), std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> values(run.estimate.size(), kNone);
   const auto& matches = run.evaluation.comparison->association.matches;
   for (std::size_t k = 0; k < matches.size(); ++k) values[matches[k].estimate] = for_each_match[k];
   return values;
@@ -66,7 +65,7 @@ std::size_t skipped_records(const nlohmann::json& record) {
 }
 
 double percentile_of(std::vector<double> values, double share) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (values.empty()) return kNone;
   const auto rank =
       static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
   std::nth_element(values.begin(), values.begin() + rank, values.end());

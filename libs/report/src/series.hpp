@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -10,6 +11,9 @@
 
 /// Series of a run that several parts of its report need.
 namespace traverse::report {
+
+/// No value: a gap in a line, a dash in a table.
+inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Seconds from the first pose of the estimate to each.
 std::vector<double> seconds_from_start(const RunData& run);

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <tsl/robin_set.h>
 #include <utility>
 
+#include "traverse/geometry/angle.hpp"
 #include "traverse/geometry/so3.hpp"
 #include "traverse/geometry/voxel.hpp"
 #include "traverse/lidar/voxel/local_points.hpp"
@@ -19,7 +19,6 @@ namespace traverse::slam {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kLeastEigenvalue = 1e-4;  // of a match: below, a direction is not determined
 constexpr double kLeastResidual_m = 0.01;  // a perfect fit would mean perfect knowledge
 
@@ -99,7 +98,7 @@ bool KeyframeMaker::observe(const lidar::Frame& frame) {
   }
   const geometry::Pose3 motion = T_odom_last_.inverse() * frame.T_map_lidar;
   return motion.translation.norm() >= options_.spacing_m ||
-         geometry::angle_of(motion.rotation) >= options_.spacing_deg * kDegree;
+         geometry::angle_of(motion.rotation) >= options_.spacing_deg * geometry::kDegree;
 }
 
 Keyframe KeyframeMaker::make(const lidar::Frame& frame, const sensors::LidarScan& scan,
@@ -125,13 +124,13 @@ Keyframe KeyframeMaker::make(const lidar::Frame& frame, const sensors::LidarScan
 geometry::Matrix6 KeyframeMaker::step_covariance(const geometry::Pose3& T_i_j) const {
   const StepNoiseOptions& noise = options_.noise;
   const double way_m = std::max(T_i_j.translation.norm(), 0.1 * options_.spacing_m);
-  const double turn = noise.drift_deg_per_sqrt_m * kDegree * std::sqrt(way_m);
+  const double turn = noise.drift_deg_per_sqrt_m * geometry::kDegree * std::sqrt(way_m);
   const double shift = noise.drift_m_per_sqrt_m * std::sqrt(way_m);
   geometry::Matrix6 covariance = geometry::Matrix6::Zero();
   covariance.diagonal().head<3>().setConstant(turn * turn);
   covariance.diagonal().tail<3>().setConstant(shift * shift);
   if (weakest_) covariance += noise.inflation * registration_covariance(*weakest_);
-  const double lost_turn = noise.unregistered_deg * kDegree * unregistered_;
+  const double lost_turn = noise.unregistered_deg * geometry::kDegree * unregistered_;
   const double lost_shift = noise.unregistered_m * unregistered_;
   covariance.diagonal().head<3>().array() += lost_turn * lost_turn;
   covariance.diagonal().tail<3>().array() += lost_shift * lost_shift;

@@ -4,18 +4,17 @@
 #include <numbers>
 #include <utility>
 
+#include "traverse/geometry/angle.hpp"
 #include "traverse/geometry/so3.hpp"
 
 namespace traverse::slam {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 bool agree(const geometry::Pose3& a, const geometry::Pose3& b, const LocalizerOptions& options) {
   const geometry::Pose3 between = a.inverse() * b;
   return between.translation.norm() <= options.agreement_m &&
-         geometry::angle_of(between.rotation) <= options.agreement_deg * kDegree;
+         geometry::angle_of(between.rotation) <= options.agreement_deg * geometry::kDegree;
 }
 
 Localizer::Fix told(const MapPlaces::Fit& fit) {
@@ -92,7 +91,8 @@ Localizer::Fix Localizer::follow(const Keyframe& scan) {
 
 std::vector<MapPlaces::Fit> Localizer::search(const Keyframe& scan) {
   if (start_) {
-    const SearchRegion around{search_.search_radius_m, search_.search_half_turn_deg * kDegree};
+    const SearchRegion around{search_.search_radius_m,
+                              search_.search_half_turn_deg * geometry::kDegree};
     return {map_.fit(*start_, around, scan.features)};
   }
   // Scan Contexts tell the heading to half a sector; neighbours of a place see it a little turned.

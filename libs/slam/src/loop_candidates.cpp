@@ -11,10 +11,6 @@ namespace {
 constexpr double kMostMoved_m = 1;    // from where the index has them, before it is made anew
 constexpr double kRounding_m = 0.01;  // of positions as floats, far from the origin
 
-std::array<float, 3> as_place(const Eigen::Vector3d& p) {
-  return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
-}
-
 }  // namespace
 
 void bind(config::Binder& b, CandidateOptions& o) {

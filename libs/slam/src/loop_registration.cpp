@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "traverse/geometry/angle.hpp"
 #include "traverse/geometry/so3.hpp"
 
 #include "voxel/workers.hpp"
@@ -18,7 +18,6 @@ using lidar::voxel::Effort;
 
 constexpr Effort kMuchEffort{6, 2};
 const lidar::voxel::MotionModel kStanding{{}, 1, false};  // keyframes are deskewed
-constexpr double kDegree = std::numbers::pi / 180;
 
 std::size_t support_of(const Alignment& found) {
   return found.health.registered ? found.standing_planes + 2 * found.health.line_matches : 0;
@@ -55,7 +54,7 @@ void bind(config::Binder& b, LoopRegistrationOptions& o) {
 std::vector<geometry::Pose3> starts_around(const geometry::Pose3& guess, const SearchRegion& region,
                                            const LoopRegistrationOptions& options) {
   const int headings = static_cast<int>(
-      std::ceil(region.half_turn_rad / (options.start_spacing_deg * kDegree) - 0.5));
+      std::ceil(region.half_turn_rad / (options.start_spacing_deg * geometry::kDegree) - 0.5));
   const int turns = std::max(0, headings);
   double spacing_m = options.start_spacing_m;
   const auto side_of = [&] {
@@ -75,7 +74,7 @@ std::vector<geometry::Pose3> starts_around(const geometry::Pose3& guess, const S
       if (shift.norm() > region.radius_m + 0.5 * spacing_m) continue;
       for (int turn = -turns; turn <= turns; ++turn) {
         geometry::Pose3 offset;
-        const double angle = turn * options.start_spacing_deg * kDegree;
+        const double angle = turn * options.start_spacing_deg * geometry::kDegree;
         offset.rotation = geometry::exp_so3(Eigen::Vector3d(0, 0, angle));
         offset.translation = shift;
         starts.push_back({shift.norm() + std::abs(turn) * 1e-3, guess * offset});

@@ -17,10 +17,6 @@ constexpr std::size_t kSubmapsKept = 16;
 constexpr std::size_t kFewPoints = 500;
 constexpr double kSpacingOfRegion = 0.5;  ///< of the starts at most, shares of the radius
 
-std::array<float, 3> as_place(const Eigen::Vector3d& p) {
-  return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
-}
-
 lidar::voxel::SweepPoints every(std::size_t step, const lidar::voxel::SweepPoints& all) {
   lidar::voxel::SweepPoints points;
   for (std::size_t i = 0; i < all.size(); i += step) points.append(all, i);

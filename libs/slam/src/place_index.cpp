@@ -44,6 +44,10 @@ void sort(std::vector<PlaceIndex::Found>& found) {
 
 }  // namespace
 
+std::array<float, 3> as_place(const Eigen::Vector3d& p) {
+  return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+}
+
 struct PlaceIndex::Forest {
   using Tree =
       nanoflann::KDTreeSingleIndexDynamicAdaptor<nanoflann::L2_Simple_Adaptor<float, PlaceSet>,

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <Eigen/Dense>
 
+#include "traverse/geometry/angle.hpp"
 #include "traverse/geometry/so3.hpp"
 #include "traverse/slam/slam.hpp"
 
@@ -14,10 +14,9 @@ namespace traverse::slam {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 // A start no farther off than this is drawn in by the registration itself.
 constexpr double kDrawnIn_m = 0.8;
-constexpr double kDrawnIn_rad = 4 * kDegree;
+constexpr double kDrawnIn_rad = 4 * geometry::kDegree;
 
 double largest_sigma(const Eigen::Matrix3d& covariance) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
@@ -136,7 +135,7 @@ Loop Slam::verify(const Candidate& candidate, LoopSource source, const Keyframe&
   loop.weakest_eigenvalue = found.health.observability.eigenvalues[0];
   const LoopChecks& checks = options_.loops;
   geometry::Matrix6 covariance = checks.inflation * registration_covariance(found.health);
-  const double turn = checks.least_sigma_deg * kDegree;
+  const double turn = checks.least_sigma_deg * geometry::kDegree;
   covariance.diagonal().head<3>().array() += turn * turn;
   covariance.diagonal().tail<3>().array() += checks.least_sigma_m * checks.least_sigma_m;
   const geometry::Twist off = geometry::log_se3(guess.inverse() * found.T_centre_lidar);
@@ -163,7 +162,7 @@ bool Slam::agree(const Loop& a, const Loop& b) const {
                                  chain_.motion(b.keyframe, a.keyframe) *
                                  a.T_candidate_keyframe.inverse();
   return around.translation.norm() <= options_.loops.agreement_m &&
-         geometry::angle_of(around.rotation) <= options_.loops.agreement_deg * kDegree;
+         geometry::angle_of(around.rotation) <= options_.loops.agreement_deg * geometry::kDegree;
 }
 
 void Slam::confirm(Loop& loop) {

@@ -23,8 +23,7 @@ namespace traverse::render {
 
 namespace {
 
-constexpr double kStrayPercent = 0.5;  // of the points, at each end of each axis, may be cut off
-constexpr double kDepthShading = 0.35;
+constexpr double kStrayPercent = 0.5;    // of the points, at each end of each axis, may be cut off
 constexpr double kLeastDiameter = 1.25;  // pixels
 constexpr double kLargestDiameter = 4;
 

@@ -24,7 +24,6 @@ namespace {
 constexpr double kFieldOfView = 45 * std::numbers::pi / 180;  // vertical
 constexpr double kElevation = 32 * std::numbers::pi / 180;    // of the eye above the ground
 constexpr double kAround_m = 25;  // of the map that the picture holds at the ends of the way
-constexpr double kDepthShading = 0.35;
 
 /// The way as it lies: its middle, and the horizontal direction across it.
 struct Lie {

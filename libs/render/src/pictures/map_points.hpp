@@ -7,6 +7,8 @@
 
 namespace traverse::render {
 
+inline constexpr double kDepthShading = 0.35;  ///< of points, where others lie near before them
+
 /// The colour scale in the map frame's terms: heights are given from the origin.
 ColourScale scale_of(const MapPoints& points, const PointValues& values);
 

@@ -8,8 +8,6 @@ namespace traverse::render {
 
 namespace {
 
-bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
-
 void keep_extremes(std::span<const Point> column, std::vector<Point>& kept) {
   const auto [lowest, highest] =
       std::minmax_element(column.begin(), column.end(), [](Point a, Point b) { return a.y < b.y; });
@@ -27,13 +25,13 @@ std::vector<Point> decimated(std::span<const Point> points, double column_width)
   std::vector<Point> kept;
   std::size_t begin = 0;
   while (begin < points.size()) {
-    if (!finite(points[begin])) {
+    if (!is_finite(points[begin])) {
       kept.push_back(points[begin++]);
       continue;
     }
     const double column = std::floor(points[begin].x / column_width);
     std::size_t end = begin + 1;
-    while (end < points.size() && finite(points[end]) &&
+    while (end < points.size() && is_finite(points[end]) &&
            std::floor(points[end].x / column_width) == column) {
       ++end;
     }

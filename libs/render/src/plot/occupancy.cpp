@@ -5,19 +5,14 @@
 
 namespace traverse::render {
 
-namespace {
-
-bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
-
-}  // namespace
-
 Occupancy::Occupancy(int width, int height)
     : columns_(width / kCell + 1),
       rows_(height / kCell + 1),
       taken_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0) {}
 
 void Occupancy::add(Point p) {
-  if (!finite(p) || p.x < 0 || p.y < 0 || p.x >= columns_ * kCell || p.y >= rows_ * kCell) return;
+  if (!is_finite(p) || p.x < 0 || p.y < 0 || p.x >= columns_ * kCell || p.y >= rows_ * kCell)
+    return;
   const auto column = static_cast<std::size_t>(p.x / kCell);
   const auto row = static_cast<std::size_t>(p.y / kCell);
   taken_[row * static_cast<std::size_t>(columns_) + column] = 1;
@@ -26,7 +21,7 @@ void Occupancy::add(Point p) {
 void Occupancy::add_line(std::span<const Point> points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     add(points[i]);
-    if (i == 0 || !finite(points[i - 1]) || !finite(points[i])) continue;
+    if (i == 0 || !is_finite(points[i - 1]) || !is_finite(points[i])) continue;
     const Point step = points[i] - points[i - 1];
     const double length = std::hypot(step.x, step.y);
     const double most = 2.0 * (columns_ + rows_) * kCell;  // longer is outside for the most part

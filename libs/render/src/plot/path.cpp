@@ -24,22 +24,19 @@ double longest_step(const geometry::Trajectory& trajectory) {
   return std::max(kShortestGap, kGapOfMedian * percentile(steps, 50));
 }
 
-bool finite(const Eigen::Vector3d& p) { return p.allFinite(); }
-bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
-
 const Eigen::Vector3d kGap = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 
 }  // namespace
 
 std::size_t Path::first_finite() const {
   const auto found = std::find_if(positions.begin(), positions.end(),
-                                  [](const Eigen::Vector3d& p) { return finite(p); });
+                                  [](const Eigen::Vector3d& p) { return p.allFinite(); });
   return static_cast<std::size_t>(found - positions.begin());
 }
 
 std::size_t Path::last_finite() const {
   const auto found = std::find_if(positions.rbegin(), positions.rend(),
-                                  [](const Eigen::Vector3d& p) { return finite(p); });
+                                  [](const Eigen::Vector3d& p) { return p.allFinite(); });
   return found == positions.rend() ? positions.size()
                                    : static_cast<std::size_t>(positions.rend() - found) - 1;
 }
@@ -60,11 +57,11 @@ Path path_of(const geometry::Trajectory& trajectory) {
         geometry::seconds_between(trajectory.stamp(i - 1), trajectory.stamp(i)) > longest) {
       add(kGap, i - 1);
     }
-    if (!finite(position)) {
+    if (!position.allFinite()) {
       add(kGap, i);
       continue;
     }
-    if (finite(last)) distance += (position - last).norm();
+    if (last.allFinite()) distance += (position - last).norm();
     last = position;
     add(position, i);
   }
@@ -95,23 +92,23 @@ PlaceOnLine place_at(const std::vector<Point>& line, const std::vector<double>& 
   // The first finite point at or after the distance, and the one before it.
   auto after = static_cast<std::size_t>(
       std::lower_bound(distances.begin(), distances.end(), distance) - distances.begin());
-  while (after < line.size() && !finite(line[after])) ++after;
+  while (after < line.size() && !is_finite(line[after])) ++after;
   if (after >= line.size()) return {};
   std::size_t before = after;
-  while (before > 0 && (before == after || !finite(line[before]))) --before;
-  if (!finite(line[before])) before = after;
+  while (before > 0 && (before == after || !is_finite(line[before]))) --before;
+  if (!is_finite(line[before])) before = after;
 
   PlaceOnLine place;
   const double span = distances[after] - distances[before];
   const double share = span > 0 ? std::clamp((distance - distances[before]) / span, 0.0, 1.0) : 0;
   place.at = line[before] + share * (line[after] - line[before]);
   const auto far_enough = [&](Point p) {
-    return finite(p) && std::hypot(p.x - place.at.x, p.y - place.at.y) >= reach;
+    return is_finite(p) && std::hypot(p.x - place.at.x, p.y - place.at.y) >= reach;
   };
   std::size_t ahead = after;
-  while (ahead + 1 < line.size() && finite(line[ahead + 1]) && !far_enough(line[ahead])) ++ahead;
+  while (ahead + 1 < line.size() && is_finite(line[ahead + 1]) && !far_enough(line[ahead])) ++ahead;
   std::size_t behind = before;
-  while (behind > 0 && finite(line[behind - 1]) && !far_enough(line[behind])) --behind;
+  while (behind > 0 && is_finite(line[behind - 1]) && !far_enough(line[behind])) --behind;
   const Point step = line[ahead] - line[behind];
   const double length = std::hypot(step.x, step.y);
   if (length > 0) place.direction = (1 / length) * step;

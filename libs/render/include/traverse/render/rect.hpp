@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 namespace traverse::render {
 
 /// A place in a picture, pixels, y down.
@@ -9,6 +11,8 @@ struct Point {
 
   bool operator==(const Point&) const = default;
 };
+
+inline bool is_finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
 inline Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
 inline Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }

@@ -1,11 +1,17 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace traverse::slam {
+
+/// A position as an index of three dimensions takes it.
+std::array<float, 3> as_place(const Eigen::Vector3d& p);
 
 /// Points of a space of few dimensions, found by nearness: ring keys of scans, positions of
 /// keyframes. A forest of k-d trees whose sizes are powers of two (nanoflann's dynamic index;
