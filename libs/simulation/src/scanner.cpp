@@ -4,6 +4,8 @@
 #include <numbers>
 #include <random>
 
+#include "traverse/geometry/angle.hpp"
+
 namespace traverse::simulation {
 
 sensors::LidarScan Scanner::scan(const AnalyticScene& scene, const Drive& drive,
@@ -14,16 +16,15 @@ sensors::LidarScan Scanner::scan(const AnalyticScene& scene, const Drive& drive,
   std::mt19937_64 generator(seed ^ static_cast<std::uint64_t>(scan.stamp.nanoseconds));
   std::normal_distribution<double> noise(0, range_noise_m > 0 ? range_noise_m : 1);
 
-  constexpr double kDegree = std::numbers::pi / 180;
   const double turn = profile.rotation == sensors::Rotation::kClockwise ? -1 : 1;
   for (int column = 0; column < azimuth_steps; ++column) {
     const double fraction = (column + 0.5) / azimuth_steps;
     const double azimuth =
-        profile.seam_azimuth_deg * kDegree + turn * fraction * 2 * std::numbers::pi;
+        profile.seam_azimuth_deg * geometry::kDegree + turn * fraction * 2 * std::numbers::pi;
     const double after_stamp = (fraction - profile.stamp_fraction) * profile.sweep_s;
     const geometry::Pose3 T_map_lidar = drive.pose(seconds + after_stamp);
     for (std::size_t ring = 0; ring < profile.elevations_deg.size(); ++ring) {
-      const double elevation = profile.elevations_deg[ring] * kDegree;
+      const double elevation = profile.elevations_deg[ring] * geometry::kDegree;
       const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth),
                                       std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
       const auto hit = scene.first_hit(T_map_lidar.translation, T_map_lidar.rotation * direction,

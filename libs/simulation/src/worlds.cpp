@@ -31,8 +31,10 @@ class Builder {
       const double width = uniform(8, 16);
       const double depth = uniform(6, 10);
       const double setback = kHalfRoad + 3 + uniform(0, 5);
-      scene.add_box({x + width / 2, side * (setback + depth / 2), 0},
-                    {width, depth, uniform(6, 14)}, 0, uniform(0.3, 0.7));
+      const double reflectivity = uniform(0.3, 0.7);
+      const double height = uniform(6, 14);
+      scene.add_box({x + width / 2, side * (setback + depth / 2), 0}, {width, depth, height}, 0,
+                    reflectivity);
       x += width + (uniform(0, 1) < 0.3 ? uniform(3, 8) : 0);
     }
   }

@@ -8,13 +8,14 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "traverse/geometry/angle.hpp"
+
 namespace traverse::simulation {
 
 using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::size_t kColumns = 8;  ///< firings that are cast together: neighbours in azimuth
 
 void require_beams(const std::vector<double>& values, std::size_t beams, const char* key) {
@@ -64,9 +65,9 @@ LidarSimulator::LidarSimulator(const sensors::LidarProfile& profile,
     const auto& firing = profile.firing;
     const double after_s = firing.times_us.empty() ? 0 : firing.times_us[i] * 1e-6;
     const double offset =
-        firing.azimuth_offsets_deg.empty() ? 0 : firing.azimuth_offsets_deg[i] * kDegree;
+        firing.azimuth_offsets_deg.empty() ? 0 : firing.azimuth_offsets_deg[i] * geometry::kDegree;
     const double azimuth = offset + turn_rate_ * after_s;
-    const double elevation = profile.elevations_deg[i] * kDegree;
+    const double elevation = profile.elevations_deg[i] * geometry::kDegree;
     beams_.push_back(
         {after_s, std::cos(elevation), std::sin(elevation), std::cos(azimuth), std::sin(azimuth)});
   }
@@ -89,7 +90,8 @@ double LidarSimulator::stamp_s(std::size_t i) const {
 void LidarSimulator::aim(double seconds, double sweep_begin_s, std::size_t column,
                          Block& block) const {
   const MotionState sensor = motion_.state(seconds).at(T_body_lidar_);
-  const double head = profile_.seam_azimuth_deg * kDegree + turn_rate_ * (seconds - sweep_begin_s);
+  const double head =
+      profile_.seam_azimuth_deg * geometry::kDegree + turn_rate_ * (seconds - sweep_begin_s);
   const double c = std::cos(head);
   const double s = std::sin(head);
   for (std::size_t beam = 0; beam < beams_.size(); ++beam) {

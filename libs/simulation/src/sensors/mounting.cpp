@@ -1,18 +1,18 @@
 #include "traverse/simulation/mounting.hpp"
 
-#include <numbers>
-
 #include <Eigen/Geometry>
+
+#include "traverse/geometry/angle.hpp"
 
 namespace traverse::simulation {
 
 using config::Range;
 
 geometry::Pose3 Mounting::T_body_sensor() const {
-  constexpr double kDegree = std::numbers::pi / 180;
-  const Eigen::Quaterniond q = Eigen::AngleAxisd(yaw_deg * kDegree, Eigen::Vector3d::UnitZ()) *
-                               Eigen::AngleAxisd(pitch_deg * kDegree, Eigen::Vector3d::UnitY()) *
-                               Eigen::AngleAxisd(roll_deg * kDegree, Eigen::Vector3d::UnitX());
+  const Eigen::Quaterniond q =
+      Eigen::AngleAxisd(yaw_deg * geometry::kDegree, Eigen::Vector3d::UnitZ()) *
+      Eigen::AngleAxisd(pitch_deg * geometry::kDegree, Eigen::Vector3d::UnitY()) *
+      Eigen::AngleAxisd(roll_deg * geometry::kDegree, Eigen::Vector3d::UnitX());
   return geometry::Pose3::from_quaternion(q, {x_m, y_m, z_m});
 }
 

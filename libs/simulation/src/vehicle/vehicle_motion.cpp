@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "traverse/geometry/angle.hpp"
 #include "traverse/geometry/so3.hpp"
 
 #include "speed_plan.hpp"
@@ -19,7 +20,6 @@ using geometry::Pose3;
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::size_t kControlEvery = 5;  ///< samples of the speed plan: 0.1 s
 constexpr double kSlowestPace = 0.85;     ///< of other drivers, shares of the route's speed
 constexpr double kFastestPace = 1.1;
@@ -134,9 +134,9 @@ VehicleMotion::VehicleMotion(const RouteSettings& route, const SuspensionSetting
       pitch_bump = bump(generator) * speed / route.speed_mps;
     }
     const double roll_now =
-        roll.follow((suspension.roll_deg_per_mps2 * lateral + roll_bump) * kDegree, dt);
-    const double pitch_now =
-        pitch.follow((-suspension.pitch_deg_per_mps2 * acceleration + pitch_bump) * kDegree, dt);
+        roll.follow((suspension.roll_deg_per_mps2 * lateral + roll_bump) * geometry::kDegree, dt);
+    const double pitch_now = pitch.follow(
+        (-suspension.pitch_deg_per_mps2 * acceleration + pitch_bump) * geometry::kDegree, dt);
     if (i % kControlEvery != 0) continue;
     progress_controls.push_back(s[i]);
     roll_controls.push_back(roll_now);

@@ -74,9 +74,11 @@ void add_side(Site& site, const Street& corridor, double half_width, double side
       // A pillar or a cabinet against the wall.
       const Street::Station at = corridor.at(s - plain / 2);
       const bool pillar = random.chance(0.5);
-      const Eigen::Vector3d size =
-          pillar ? Eigen::Vector3d(0.4, 0.3, site.settings.height_m)
-                 : Eigen::Vector3d(random.uniform(0.6, 1.1), 0.4, random.uniform(0.9, 1.9));
+      Eigen::Vector3d size(0.4, 0.3, site.settings.height_m);
+      if (!pillar) {
+        const double height = random.uniform(0.9, 1.9);
+        size = {random.uniform(0.6, 1.1), 0.4, height};
+      }
       const Eigen::Vector2d p = at.beside(side * (half_width - size.y() / 2));
       site.mesh.add_box(upright(site.on_ground(p), at.heading), size,
                         pillar ? Material::kConcrete : Material::kMetal);

@@ -96,8 +96,9 @@ void build_highway(Site& site) {
     add_overpass(site, road.at(s), half_width);
   }
   for (double s = 60; s < road.length_m(); s += random.uniform(300, 500) / density) {
-    add_noise_wall(site, road.part(s, std::min(s + random.uniform(80, 160), road.length_m())),
-                   (random.chance(0.5) ? 1 : -1) * (half_width + 3.5));
+    const double side = random.chance(0.5) ? 1 : -1;
+    const double end = std::min(s + random.uniform(80, 160), road.length_m());
+    add_noise_wall(site, road.part(s, end), side * (half_width + 3.5));
   }
   for (double s = 0; s < road.length_m(); s += 50) {  // delineators
     for (const double side : {-1.0, 1.0}) {

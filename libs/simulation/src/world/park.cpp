@@ -39,15 +39,17 @@ void build_park(Site& site) {
                   upright(site.on_ground(p), facing));
   }
   const Eigen::Vector2d size = site.plan.most() - site.plan.least();
-  const auto somewhere = [&] {
-    return Eigen::Vector2d(site.plan.least() + size.cwiseProduct(Eigen::Vector2d(
-                                                   random.uniform(0, 1), random.uniform(0, 1))));
+  const auto somewhere = [&]() -> Eigen::Vector2d {
+    const double north = random.uniform(0, 1);
+    const double east = random.uniform(0, 1);
+    return site.plan.least() + size.cwiseProduct(Eigen::Vector2d(east, north));
   };
   for (int i = 0; i < 2; ++i) {
     const Eigen::Vector2d p = somewhere();
     if (!site.plan.is_free(p, 0, {9, 9})) continue;
     site.plan.take(p, 0, {9, 9});
-    site.mesh.add(make_pavilion(random), upright(site.on_ground(p), random.uniform(0, 1)));
+    const double yaw = random.uniform(0, 1);
+    site.mesh.add(make_pavilion(random), upright(site.on_ground(p), yaw));
   }
   const auto count = static_cast<int>(settings.density * size.x() * size.y() / 30);
   for (int i = 0; i < count; ++i) {

@@ -12,7 +12,10 @@ namespace {
 using Eigen::Vector3d;
 
 Vector3d random_direction(Random& random) {
-  return Vector3d(random.gaussian(), random.gaussian(), random.gaussian()).normalized();
+  const double z = random.gaussian();
+  const double y = random.gaussian();
+  const double x = random.gaussian();
+  return Vector3d(x, y, z).normalized();
 }
 
 void add_leaf(Mesh& mesh, const Vector3d& at, double size, Random& random) {
@@ -26,8 +29,9 @@ void add_clump(Mesh& mesh, const Vector3d& centre, const Vector3d& radii, int le
                Random& random) {
   for (int i = 0; i < leaves; ++i) {
     const double share = std::pow(random.uniform(0.05, 1), 0.45);
-    add_leaf(mesh, centre + share * random_direction(random).cwiseProduct(radii),
-             size * random.uniform(0.6, 1.3), random);
+    const double scale = random.uniform(0.6, 1.3);
+    add_leaf(mesh, centre + share * random_direction(random).cwiseProduct(radii), size * scale,
+             random);
   }
 }
 
@@ -37,7 +41,9 @@ Mesh make_tree(double height, Random& random) {
   Mesh mesh;
   const double trunk = height * random.uniform(0.3, 0.4);
   const double radius = 0.02 * height * random.uniform(0.8, 1.3);
-  const Vector3d fork(random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), trunk);
+  const double aside = random.uniform(-0.2, 0.2);
+  const double ahead = random.uniform(-0.2, 0.2);
+  const Vector3d fork(ahead, aside, trunk);
   mesh.add_tube({0, 0, -0.5}, fork, radius, 0.75 * radius, 8, Material::kBark);
   const int branches = 5 + static_cast<int>(random.below(3));
   for (int i = 0; i < branches; ++i) {
@@ -77,8 +83,9 @@ Mesh make_hedge(double length, double height, Random& random) {
   Mesh mesh;
   const int leaves = static_cast<int>(150 * length);
   for (int i = 0; i < leaves; ++i) {
-    Vector3d p(random.uniform(-length / 2, length / 2), random.uniform(-0.35, 0.35),
-               random.uniform(0, height));
+    const double up = random.uniform(0, height);
+    const double across = random.uniform(-0.35, 0.35);
+    Vector3d p(random.uniform(-length / 2, length / 2), across, up);
     const double face = random.uniform(0, 1);  // most leaves are near a face
     if (face < 0.4) p.y() = std::copysign(random.uniform(0.28, 0.4), p.y());
     if (face > 0.8) p.z() = height * random.uniform(0.93, 1.02);

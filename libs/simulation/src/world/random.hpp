@@ -5,7 +5,8 @@
 
 namespace traverse::simulation {
 
-/// The dice of a world's builders.
+/// The dice of a world's builders. Two draws in one expression have an order that each compiler
+/// chooses for itself, so each draw that another one follows gets a name.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : generator_(seed) {}

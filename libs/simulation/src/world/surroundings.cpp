@@ -1,7 +1,8 @@
 #include "traverse/simulation/surroundings.hpp"
 
 #include <cmath>
-#include <numbers>
+
+#include "traverse/geometry/angle.hpp"
 
 namespace traverse::simulation {
 
@@ -53,14 +54,13 @@ void Surroundings::cast_at(const Mover& mover, std::span<const Ray> rays,
 }
 
 double Surroundings::open_sky(const Eigen::Vector3d& point) const {
-  constexpr double kDegree = std::numbers::pi / 180;
   constexpr double kFar = 300;
   int open = 0;
   int all = 0;
   for (const double elevation : {20.0, 35.0, 50.0, 70.0, 88.0}) {
     for (double azimuth = 0; azimuth < 360; azimuth += 45) {
-      const double e = elevation * kDegree;
-      const double a = azimuth * kDegree;
+      const double e = elevation * geometry::kDegree;
+      const double a = azimuth * geometry::kDegree;
       const Ray ray{point, {std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)}};
       open += still_.cast(ray, kFar).is_hit() ? 0 : 1;
       ++all;

@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kKerb = 0.12;
 constexpr double kSideStreet = 3.2;  ///< metres, half width
-constexpr double kQuarter = std::numbers::pi / 2;
 
 /// Streets that leave the main one: straight on at its corners, and across the middle of long legs.
 std::vector<Street> side_streets(Site& site, const Street& street) {
@@ -152,9 +151,9 @@ void add_gardens(Site& site, const Greenery& greenery) {
   const Eigen::Vector2d size = site.plan.most() - site.plan.least();
   const auto count = static_cast<int>(site.settings.density * size.x() * size.y() / 160);
   for (int i = 0; i < count; ++i) {
-    const Eigen::Vector2d p =
-        site.plan.least() +
-        size.cwiseProduct(Eigen::Vector2d(site.random.uniform(0, 1), site.random.uniform(0, 1)));
+    const double north = site.random.uniform(0, 1);
+    const double east = site.random.uniform(0, 1);
+    const Eigen::Vector2d p = site.plan.least() + size.cwiseProduct(Eigen::Vector2d(east, north));
     const double dice = site.random.uniform(0, 1);
     if (dice < 0.3) plant(site, greenery.trees, p, 5, kKerb);
     if (dice > 0.3 && dice < 0.4) plant(site, greenery.conifers, p, 4, kKerb);

@@ -41,16 +41,18 @@ void add_traffic(Place& place, const PlaceSettings& settings, const Route& route
   const bool is_highway = settings.kind == PlaceKind::kHighway;
   for (int i = 0; i < settings.vehicles; ++i) {
     const double speed = is_highway ? random.uniform(22, 36) : random.uniform(6, 11);
-    add(random.chance(0.2) ? make_lorry() : make_car(random), -speed,
-        2 * settings.lane_offset_m + random.uniform(-0.3, 0.3));
+    const double lateral = 2 * settings.lane_offset_m + random.uniform(-0.3, 0.3);
+    add(random.chance(0.2) ? make_lorry() : make_car(random), -speed, lateral);
   }
   const double kerb = settings.half_width_m + 0.5 * settings.pavement_m;
   for (int i = 0; i < settings.pedestrians; ++i) {
     const double side = random.chance(0.5) ? 1 : -1;
     const double inside =
         settings.kind == PlaceKind::kCorridor ? 0.6 * settings.half_width_m : kerb;
-    add(make_pedestrian(random), (random.chance(0.5) ? 1 : -1) * random.uniform(0.9, 1.7),
-        settings.lane_offset_m + side * (inside + random.uniform(-0.4, 0.4)));
+    const double lateral = settings.lane_offset_m + side * (inside + random.uniform(-0.4, 0.4));
+    const double direction = random.chance(0.5) ? 1 : -1;
+    const double speed = direction * random.uniform(0.9, 1.7);
+    add(make_pedestrian(random), speed, lateral);
   }
 }
 

@@ -97,8 +97,9 @@ void build_tunnel(Site& site) {
   for (double s = 0; s < road.length_m(); s += site.random.uniform(2, 5)) {
     if (s > begin - 3 && s < road.length_m() - begin + 3) continue;
     const double side = site.random.chance(0.5) ? 1 : -1;
+    const double lateral = side * site.random.uniform(to_wall + 1.5, to_wall + 30);
     plant(site, site.random.chance(0.5) ? greenery.trees : greenery.bushes,
-          road.at(s).beside(side * site.random.uniform(to_wall + 1.5, to_wall + 30)), 2, 0);
+          road.at(s).beside(lateral), 2, 0);
   }
   for (double s = 10; s < begin - 5; s += 22) {
     for (const double at_s : {s, road.length_m() - s}) {
