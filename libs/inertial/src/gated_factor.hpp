@@ -24,7 +24,9 @@ std::unique_ptr<StateFactor> make_factor(const Model& model, const Covariance<Mo
 template <typename Model>
 Innovation constrain_newest(FixedLagSmoother& smoother, const Model& model,
                             const Covariance<Model>& R, bool gate, double huber = 0) {
-  Innovation found = innovation(model, smoother.newest(), smoother.covariance(), R);
+  Jacobian<Model::kSize> J;
+  const Residual<Model::kSize> r = model(smoother.newest(), &J);
+  Innovation found = innovation(r, J, smoother.covariance(), R);
   if (gate && found.chi2 > chi2_bound(Model::kSize)) {
     found.is_rejected = true;
     return found;

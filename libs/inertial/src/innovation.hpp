@@ -1,10 +1,13 @@
 #pragma once
 
-#include <Eigen/Cholesky>
-
 #include "traverse/inertial/navigation.hpp"
 
+#include "state_factors.hpp"
+
 namespace traverse::inertial {
+
+/// The covariance of a residual, on the stack.
+using RowsCovariance = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
 /// The value that chi-square of `rows` degrees of freedom exceeds with a probability of 0.1 %
 /// (Abramowitz and Stegun, table 26.8).
@@ -13,17 +16,10 @@ inline double chi2_bound(int rows) {
   return kBounds[rows];
 }
 
-/// The normalised innovation squared of a model (as in ModelFactor) at the predicted state:
-/// r' (J P J' + R)^-1 r. Source: Bar-Shalom, Li and Kirubarajan, "Estimation with applications to
+/// The normalised innovation squared r' (J P J' + R)^-1 r of a residual `r` at the predicted state,
+/// J its derivative. Source: Bar-Shalom, Li and Kirubarajan, "Estimation with applications to
 /// tracking and navigation", section 5.4.
-template <typename Model>
-Innovation innovation(const Model& model, const NavState& predicted, const NavState::Matrix& P,
-                      const Eigen::Matrix<double, Model::kSize, Model::kSize>& R) {
-  constexpr int kSize = Model::kSize;
-  Jacobian<kSize> J;
-  const Residual<kSize> r = model(predicted, &J);
-  const Eigen::Matrix<double, kSize, kSize> S = J * P * J.transpose() + R;
-  return {r.dot(S.ldlt().solve(r)), kSize, false};
-}
+Innovation innovation(const Rows& r, const RowsJacobian& J, const NavState::Matrix& P,
+                      const RowsCovariance& R);
 
 }  // namespace traverse::inertial
