@@ -95,14 +95,16 @@ TEST(BenchFactors, IsAPartOfARunAndOfItsReportWhenAskedFor) {
   const TemporaryFolder folder;
   const std::string street = (folder / "street.rawlog").string();
   const std::string run = (folder / "run").string();
-  ASSERT_EQ(run_program("simulate town_short --first 80 --duration 0.5 -o " + street).status, 0);
+  ASSERT_EQ(run_program("simulate town_short --sensor vlp16 --first 80 --duration 0.5 -o " + street)
+                .status,
+            0);
   const ProgramResult result =
       run_program("run " + street + " -o " + run +
                   " --pipeline floam --set solver.perturbation=left --bench-factors");
   ASSERT_EQ(result.status, 0) << result.messages;
   const json bench = read_json(folder / "run/factor_bench.json");
   EXPECT_EQ(bench["frame"], 4);
-  EXPECT_EQ(bench["recording"], "Short town drive (HDL-64E)");
+  EXPECT_EQ(bench["recording"], "Short town drive (VLP-16)");
   const json audit = read_json(folder / "run/jacobians.json");
   ASSERT_EQ(audit["factors"].size(), 2U) << "those that the run used";
   EXPECT_EQ(audit["factors"][0]["factor"], "line scalar");

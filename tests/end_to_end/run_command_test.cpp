@@ -214,7 +214,7 @@ TEST_F(RunCommand, ATunnelIsReportedAsDegenerate) {
 }
 
 // Accuracy is the same in every build; a sanitizer has seen all there is after a few frames.
-#ifdef __SANITIZE_ADDRESS__
+#ifdef TRAVERSE_SANITIZED
 constexpr std::size_t kMostFrames = 30;
 #else
 constexpr std::size_t kMostFrames = 1000;

@@ -8,7 +8,7 @@ namespace traverse::pipeline {
 namespace {
 
 TEST(Comma2k19, IsBetterThanItsFixesThroughOutagesWithAndWithoutWheels) {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef TRAVERSE_SANITIZED
   GTEST_SKIP() << "accuracy is the same in every build, and this takes a minute here";
 #endif
   if (!std::filesystem::exists(testing::comma2k19())) GTEST_SKIP() << "comma2k19 is not there";

@@ -7,7 +7,7 @@
 /// A function of loops over floats, compiled for any x86-64 and for AVX2; the processor chooses
 /// when the program starts. Without fused multiply-adds and with sums in written lanes both give
 /// the same bits. Not under sanitizers, which are not set up yet when the choice is made.
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__x86_64__) && !defined(TRAVERSE_SANITIZED)
 #define TRAVERSE_AVX2_TOO __attribute__((target_clones("avx2", "default")))
 #else
 #define TRAVERSE_AVX2_TOO
