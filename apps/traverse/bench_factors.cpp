@@ -22,8 +22,8 @@ namespace traverse::app {
 
 namespace {
 
-using lidar::FactorBench;
-using lidar::Spread;
+using loam::FactorBench;
+using loam::Spread;
 
 constexpr const char* kFooter = R"(Examples:
   traverse bench-factors                               on a frame of a simulated street

@@ -18,13 +18,13 @@ namespace traverse::app {
 
 namespace {
 
-lidar::FactorBench measure(const std::vector<sensors::LidarScan>& scans,
+loam::FactorBench measure(const std::vector<sensors::LidarScan>& scans,
                            const sensors::LidarProfile& profile, bool motion_compensated,
                            int repeats) {
-  const lidar::ScanToMapOdometryOptions options;
+  const loam::ScanToMapOdometryOptions options;
   const auto correspondences =
       lidar::correspondences_of_last(scans, profile, motion_compensated, options);
-  return lidar::measure_factors(correspondences, options.solver, repeats);
+  return loam::measure_factors(correspondences, options.solver, repeats);
 }
 
 std::size_t begin_of(std::size_t first, std::size_t frame) {
@@ -33,7 +33,7 @@ std::size_t begin_of(std::size_t first, std::size_t frame) {
 
 }  // namespace
 
-lidar::FactorBench measure_on_recording(dataset::Source& source, std::size_t first,
+loam::FactorBench measure_on_recording(dataset::Source& source, std::size_t first,
                                         std::size_t frame, int repeats) {
   const std::size_t begin = begin_of(first, frame);
   std::vector<sensors::LidarScan> scans;
@@ -58,7 +58,7 @@ lidar::FactorBench measure_on_recording(dataset::Source& source, std::size_t fir
   return bench;
 }
 
-lidar::FactorBench measure_on_simulated_street(std::size_t frame, int repeats) {
+loam::FactorBench measure_on_simulated_street(std::size_t frame, int repeats) {
   const simulation::Drive drive;
   const double length_m = drive.speed_mps * 0.1 * static_cast<double>(frame + 1);
   const auto street = simulation::street(length_m, 1);

@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "traverse/dataset/source.hpp"
-#include "traverse/lidar/factor_bench.hpp"
+#include "traverse/loam/factor_bench.hpp"
 
 namespace traverse::app {
 
@@ -16,10 +16,10 @@ inline constexpr int kFactorRepeats = 51;
 /// Measures the factors on the correspondences of frame `frame` of the recording, counted from 0.
 /// Frames before it are followed from `first` on, at most kFramesBefore of them.
 /// \throws std::runtime_error if the recording ends before it or has no lidar
-lidar::FactorBench measure_on_recording(dataset::Source& source, std::size_t first,
+loam::FactorBench measure_on_recording(dataset::Source& source, std::size_t first,
                                         std::size_t frame, int repeats);
 
 /// The same on a simulated street.
-lidar::FactorBench measure_on_simulated_street(std::size_t frame, int repeats);
+loam::FactorBench measure_on_simulated_street(std::size_t frame, int repeats);
 
 }  // namespace traverse::app

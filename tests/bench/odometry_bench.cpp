@@ -24,8 +24,8 @@
 #include <nanoflann.hpp>
 
 #include "traverse/dataset/open_recording.hpp"
-#include "traverse/lidar/scan_to_map_odometry.hpp"
-#include "traverse/lidar/voxel/voxel_map_odometry.hpp"
+#include "traverse/loam/scan_to_map_odometry.hpp"
+#include "traverse/voxel_map/voxel_map_odometry.hpp"
 
 #include "lidar/simulated_drive.hpp"
 #include "test_data.hpp"
@@ -151,10 +151,10 @@ void per_thread(benchmark::internal::Benchmark* bench) {
 }
 
 void floam(benchmark::State& state) {
-  odometry<lidar::ScanToMapOdometry, lidar::ScanToMapOdometryOptions>(state);
+  odometry<loam::ScanToMapOdometry, loam::ScanToMapOdometryOptions>(state);
 }
 void traverse_preset(benchmark::State& state) {
-  odometry<lidar::voxel::VoxelMapOdometry, lidar::voxel::VoxelMapOdometryOptions>(state);
+  odometry<voxel_map::VoxelMapOdometry, voxel_map::VoxelMapOdometryOptions>(state);
 }
 BENCHMARK(floam)->Apply(per_thread);
 BENCHMARK(traverse_preset)->Name("traverse")->Apply(per_thread);

@@ -16,7 +16,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "traverse/lidar/voxel/voxel_map_odometry.hpp"
+#include "traverse/voxel_map/voxel_map_odometry.hpp"
 #include "traverse/sensors/lidar_profile.hpp"
 #include "traverse/simulation/simulation.hpp"
 
@@ -87,7 +87,7 @@ int drive(const std::string& world_name, int laps) {
   std::printf("%4s %8s %10s %12s\n", "lap", "cells", "held MB", "peak MB");
 
   Ledger ledger;
-  lidar::voxel::VoxelMapOdometry odometry({}, profile, false);
+  voxel_map::VoxelMapOdometry odometry({}, profile, false);
   std::vector<sensors::LidarScan> scans(kBatch);
   int lap = 1;
   for (std::size_t begin = 0; begin < sweeps; begin += kBatch) {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "traverse/lidar/scan_to_map_odometry.hpp"
+#include "traverse/loam/scan_to_map_odometry.hpp"
 
 #include "geometry/random_motion.hpp"
 #include "lidar/simulated_drive.hpp"
@@ -24,17 +24,17 @@ dataset::RecordingInfo recording_with(const sensors::LidarProfile& profile,
   return info;
 }
 
-lidar::ScanToMapOdometryOptions quick_options() {
-  lidar::ScanToMapOdometryOptions options;
+loam::ScanToMapOdometryOptions quick_options() {
+  loam::ScanToMapOdometryOptions options;
   options.start.scans = 2;
   options.start.slowest_mps = options.start.fastest_mps = 10;
   return options;
 }
 
-LidarEstimator make_estimator(const lidar::ScanToMapOdometryOptions& options,
+LidarEstimator make_estimator(const loam::ScanToMapOdometryOptions& options,
                               const dataset::RecordingInfo& recording) {
   const auto make = [&](const sensors::LidarProfile& profile, bool motion_compensated) {
-    return std::make_unique<lidar::ScanToMapOdometry>(options, profile, motion_compensated);
+    return std::make_unique<loam::ScanToMapOdometry>(options, profile, motion_compensated);
   };
   return LidarEstimator(make, recording);
 }

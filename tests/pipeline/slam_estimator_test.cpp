@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "traverse/lidar/scan_to_map_odometry.hpp"
+#include "traverse/loam/scan_to_map_odometry.hpp"
 
 #include "lidar/simulated_drive.hpp"
 
@@ -54,11 +54,11 @@ class AShortDrive : public ::testing::Test {
       recording.rig.sensors.push_back(
           {"imu", sensors::SensorKind::kImu, kT_body_imu, std::nullopt});
     }
-    lidar::ScanToMapOdometryOptions odometry;
+    loam::ScanToMapOdometryOptions odometry;
     odometry.start.scans = 2;
     odometry.start.slowest_mps = odometry.start.fastest_mps = 10;
     const auto make = [&](const sensors::LidarProfile& profile, bool motion_compensated) {
-      return std::make_unique<lidar::ScanToMapOdometry>(odometry, profile, motion_compensated);
+      return std::make_unique<loam::ScanToMapOdometry>(odometry, profile, motion_compensated);
     };
     SlamEstimatorOptions options;
     options.gravity.use = use_gravity;

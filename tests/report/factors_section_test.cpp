@@ -53,7 +53,7 @@ TEST(FactorsSection, ShowsTheDifferencesAndWhetherTheyPass) {
 TEST(FactorsSection, ComparesTheDerivativesOfEachCase) {
   using optimization::Derivative;
   RunData run;
-  lidar::FactorBench bench;
+  loam::FactorBench bench;
   bench.recording = "a street";
   bench.frame = 10;
   bench.repeats = 51;

@@ -43,7 +43,7 @@ TEST(KeyframeMaker, FeaturesStandStillAtTheStamp) {
 }
 
 TEST(KeyframeMaker, DeskewCarriesAPointAlongTheMotion) {
-  lidar::voxel::SweepSample sample;
+  voxel_map::SweepSample sample;
   sample.edges.push_back(10, 2, 1, 10.2F, 0);
   sample.edges.time = {0.05F};
   geometry::Twist velocity;

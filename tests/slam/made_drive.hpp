@@ -4,7 +4,7 @@
 
 #include "traverse/geometry/so3.hpp"
 #include "traverse/lidar/frame.hpp"
-#include "traverse/lidar/voxel/used_points.hpp"
+#include "traverse/voxel_map/used_points.hpp"
 #include "traverse/simulation/scanner.hpp"
 #include "traverse/simulation/worlds.hpp"
 #include "traverse/slam/keyframe_maker.hpp"
@@ -84,7 +84,7 @@ class MadeDrive {
 };
 
 inline lidar::CorrectedScan points_of(const MadeFrame& made, const sensors::LidarProfile& profile) {
-  return lidar::voxel::used_points(made.scan, profile, made.frame.velocity);
+  return voxel_map::used_points(made.scan, profile, made.frame.velocity);
 }
 
 }  // namespace traverse::testing

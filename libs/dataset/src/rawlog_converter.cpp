@@ -15,8 +15,8 @@
 
 #include "traverse/files/input_error.hpp"
 
-#include "lidar_observations.hpp"
-#include "mrpt_values.hpp"
+#include "traverse/mrpt_io/lidar_observations.hpp"
+#include "traverse/mrpt_io/mrpt_values.hpp"
 
 namespace traverse::dataset {
 
@@ -43,7 +43,7 @@ std::string class_of(const mrpt::rtti::CObject& object) {
 Pose3 pose_of(const mrpt::obs::CObservation& observation) {
   mrpt::poses::CPose3D pose;
   observation.getSensorPose(pose);
-  return to_pose(pose);
+  return mrpt_io::to_pose(pose);
 }
 
 bool is_used(const mrpt::obs::CObservation& observation) {
@@ -64,7 +64,7 @@ Measurement stamped(Scan scan, Stamp stamp, const std::string& label) {
 }
 
 LidarScan with_points(LidarScan scan) {
-  if (scan.empty()) throw UnusableObservation("scan without points");
+  if (scan.empty()) throw mrpt_io::UnusableObservation("scan without points");
   return scan;
 }
 
@@ -73,8 +73,8 @@ Eigen::Vector3d imu_vector(const mrpt::obs::CObservationIMU& observation,
   Eigen::Vector3d values;
   for (int axis = 0; axis < 3; ++axis) {
     const auto index = xyz.at(static_cast<std::size_t>(axis));
-    if (!is_set(observation.dataIsPresent.at(index))) {
-      throw UnusableObservation("IMU record without three rates and three accelerations");
+    if (!mrpt_io::is_set(observation.dataIsPresent.at(index))) {
+      throw mrpt_io::UnusableObservation("IMU record without three rates and three accelerations");
     }
     values[axis] = observation.rawMeasurements.at(index);
   }
@@ -99,7 +99,7 @@ const Message* find_message(const mrpt::obs::CObservationGPS& observation) {
 GnssFix gnss_fix(const mrpt::obs::CObservationGPS& observation) {
   GnssFix fix;
   if (const auto* gga = find_message<mrpt::obs::gnss::Message_NMEA_GGA>(observation)) {
-    if (gga->fields.fix_quality == 0) throw UnusableObservation("GNSS record without a fix");
+    if (gga->fields.fix_quality == 0) throw mrpt_io::UnusableObservation("GNSS record without a fix");
     fix.latitude_deg = gga->fields.latitude_degrees;
     fix.longitude_deg = gga->fields.longitude_degrees;
     // NMEA: above the mean sea level, and that above the ellipsoid.
@@ -107,22 +107,22 @@ GnssFix gnss_fix(const mrpt::obs::CObservationGPS& observation) {
     return fix;
   }
   if (const auto* rmc = find_message<mrpt::obs::gnss::Message_NMEA_RMC>(observation)) {
-    if (rmc->fields.validity_char != 'A') throw UnusableObservation("GNSS record without a fix");
+    if (rmc->fields.validity_char != 'A') throw mrpt_io::UnusableObservation("GNSS record without a fix");
     fix.latitude_deg = rmc->fields.latitude_degrees;
     fix.longitude_deg = rmc->fields.longitude_degrees;
     fix.altitude_m = std::numeric_limits<double>::quiet_NaN();
     return fix;  // its course over ground is not a heading
   }
-  throw UnusableObservation("GNSS record without GGA or RMC");
+  throw mrpt_io::UnusableObservation("GNSS record without GGA or RMC");
 }
 
 WheelOdometry wheel_odometry(const mrpt::obs::CObservationOdometry& observation) {
   WheelOdometry odometry;
-  odometry.T_odom_body = to_pose(mrpt::poses::CPose3D(observation.odometry));
-  if (is_set(observation.hasEncodersInfo)) {
+  odometry.T_odom_body = mrpt_io::to_pose(mrpt::poses::CPose3D(observation.odometry));
+  if (mrpt_io::is_set(observation.hasEncodersInfo)) {
     odometry.ticks = {observation.encoderLeftTicks, observation.encoderRightTicks};
   }
-  if (is_set(observation.hasVelocities)) {
+  if (mrpt_io::is_set(observation.hasVelocities)) {
     const auto& v = observation.velocityLocal;
     odometry.velocity = {v.vx, v.vy, v.omega};
   }
@@ -134,7 +134,7 @@ WheelOdometry wheel_odometry(const mrpt::obs::CObservationOdometry& observation)
 RawlogConverter::RawlogConverter(RawlogSensors& sensors, std::string external_folder)
     : sensors_(sensors), external_folder_(std::move(external_folder)) {}
 
-ConvertedRecord RawlogConverter::convert(const RawlogRecord& record) {
+ConvertedRecord RawlogConverter::convert(const mrpt_io::RawlogRecord& record) {
   ConvertedRecord result;
   if (auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(record.object)) {
     for (const auto& observation : *frame) {
@@ -152,22 +152,22 @@ ConvertedRecord RawlogConverter::convert(const RawlogRecord& record) {
 }
 
 void RawlogConverter::add_observation(mrpt::obs::CObservation& observation,
-                                      const RawlogRecord& record, ConvertedRecord& result) {
+                                      const mrpt_io::RawlogRecord& record, ConvertedRecord& result) {
   try {
-    const auto stamp = to_stamp(observation.timestamp);
+    const auto stamp = mrpt_io::to_stamp(observation.timestamp);
     if (stamp && state_.odometry_waits) flush_odometry(*stamp, result);
     if (!is_used(observation)) {
-      throw UnusableObservation("class not used: " + class_of(observation));
+      throw mrpt_io::UnusableObservation("class not used: " + class_of(observation));
     }
-    if (!stamp) throw UnusableObservation("no stamp in a record of " + class_of(observation));
+    if (!stamp) throw mrpt_io::UnusableObservation("no stamp in a record of " + class_of(observation));
     result.measurements.push_back(measurement_from(observation, *stamp));
-  } catch (const UnusableObservation& error) {
+  } catch (const mrpt_io::UnusableObservation& error) {
     result.skipped.push_back({error.what(), record.place});
   } catch (const files::InputError&) {
     throw;  // what is stated about the sensor is wrong, not the record
   } catch (const std::exception& error) {
     result.skipped.push_back(
-        {fmt::format("{} cannot be used: {}", class_of(observation), message_of(error)),
+        {fmt::format("{} cannot be used: {}", class_of(observation), mrpt_io::message_of(error)),
          record.place});
   }
 }
@@ -177,26 +177,26 @@ Measurement RawlogConverter::measurement_from(mrpt::obs::CObservation& observati
   const Pose3 T_body_sensor = pose_of(observation);
 
   if (auto* velodyne = dynamic_cast<mrpt::obs::CObservationVelodyneScan*>(&observation)) {
-    LidarScan scan = with_points(take_scan(*velodyne));
-    const auto& lidar = sensors_.lidar(name, T_body_sensor, profile_of(*velodyne, scan));
+    LidarScan scan = with_points(mrpt_io::take_scan(*velodyne));
+    const auto& lidar = sensors_.lidar(name, T_body_sensor, mrpt_io::profile_of(*velodyne, scan));
     return stamped(std::move(scan), stamp, lidar.label);
   }
   if (auto* cloud = dynamic_cast<mrpt::obs::CObservationPointCloud*>(&observation)) {
-    LidarScan scan = with_points(take_scan(*cloud, external_folder_));
-    const auto& lidar = sensors_.lidar(name, T_body_sensor, profile_of(*cloud, scan));
+    LidarScan scan = with_points(mrpt_io::take_scan(*cloud, external_folder_));
+    const auto& lidar = sensors_.lidar(name, T_body_sensor, mrpt_io::profile_of(*cloud, scan));
     return stamped(std::move(scan), stamp, lidar.label);
   }
   if (const auto* rotating = dynamic_cast<mrpt::obs::CObservationRotatingScan*>(&observation)) {
     if (rotating->rangeImage.rows() == 1) {
-      return stamped(planar_scan(*rotating), stamp,
+      return stamped(mrpt_io::planar_scan(*rotating), stamp,
                      sensors_.label_of(SensorKind::kPlanarLaser, name, T_body_sensor));
     }
-    const auto& lidar = sensors_.lidar(name, T_body_sensor, profile_of(*rotating));
-    return stamped(with_points(take_scan(*rotating, lidar.lidar->elevations_deg)), stamp,
+    const auto& lidar = sensors_.lidar(name, T_body_sensor, mrpt_io::profile_of(*rotating));
+    return stamped(with_points(mrpt_io::take_scan(*rotating, lidar.lidar->elevations_deg)), stamp,
                    lidar.label);
   }
   if (const auto* laser = dynamic_cast<mrpt::obs::CObservation2DRangeScan*>(&observation)) {
-    return stamped(planar_scan(*laser), stamp,
+    return stamped(mrpt_io::planar_scan(*laser), stamp,
                    sensors_.label_of(SensorKind::kPlanarLaser, name, T_body_sensor));
   }
   if (const auto* imu = dynamic_cast<mrpt::obs::CObservationIMU*>(&observation)) {
@@ -221,7 +221,7 @@ Measurement RawlogConverter::measurement_from(mrpt::obs::CObservation& observati
 }
 
 void RawlogConverter::add_actions(const mrpt::obs::CActionCollection& actions,
-                                  const RawlogRecord& record, ConvertedRecord& result) {
+                                  const mrpt_io::RawlogRecord& record, ConvertedRecord& result) {
   for (const auto& action : actions) {
     const auto* movement = dynamic_cast<const mrpt::obs::CActionRobotMovement2D*>(action.get());
     const bool is_odometry =
@@ -234,22 +234,22 @@ void RawlogConverter::add_actions(const mrpt::obs::CActionCollection& actions,
     }
     add_up(*movement);
     state_.odometry_waits = true;
-    if (const auto stamp = to_stamp(movement->timestamp)) flush_odometry(*stamp, result);
+    if (const auto stamp = mrpt_io::to_stamp(movement->timestamp)) flush_odometry(*stamp, result);
   }
 }
 
 void RawlogConverter::add_up(const mrpt::obs::CActionRobotMovement2D& action) {
-  const Pose3 T_before_after = to_pose(mrpt::poses::CPose3D(action.rawOdometryIncrementReading));
+  const Pose3 T_before_after = mrpt_io::to_pose(mrpt::poses::CPose3D(action.rawOdometryIncrementReading));
   state_.odometry.T_odom_body =
       state_.odometry.T_odom_body.value_or(Pose3::identity()) * T_before_after;
-  if (is_set(action.hasEncodersInfo)) {
+  if (mrpt_io::is_set(action.hasEncodersInfo)) {
     WheelOdometry::Ticks ticks = state_.odometry.ticks.value_or(WheelOdometry::Ticks());
     ticks.left += action.encoderLeftTicks;
     ticks.right += action.encoderRightTicks;
     state_.odometry.ticks = ticks;
   }
   state_.odometry.velocity.reset();
-  if (is_set(action.hasVelocities)) {
+  if (mrpt_io::is_set(action.hasVelocities)) {
     const auto& v = action.velocityLocal;
     state_.odometry.velocity = {v.vx, v.vy, v.omega};
   }

@@ -7,7 +7,7 @@
 #include "traverse/geometry/pose3.hpp"
 #include "traverse/sensors/measurement.hpp"
 
-#include "rawlog_reader.hpp"
+#include "traverse/mrpt_io/rawlog_reader.hpp"
 #include "rawlog_sensors.hpp"
 
 namespace mrpt::obs {
@@ -35,7 +35,7 @@ class RawlogConverter {
   /// `sensors` must outlive this; point clouds stored outside the rawlog are in `external_folder`.
   RawlogConverter(RawlogSensors& sensors, std::string external_folder);
 
-  ConvertedRecord convert(const RawlogRecord& record);
+  ConvertedRecord convert(const mrpt_io::RawlogRecord& record);
 
   /// What earlier records leave for later ones: the odometry summed up so far.
   struct State {
@@ -46,11 +46,11 @@ class RawlogConverter {
   void set_state(const State& state) { state_ = state; }
 
  private:
-  void add_observation(mrpt::obs::CObservation& observation, const RawlogRecord& record,
+  void add_observation(mrpt::obs::CObservation& observation, const mrpt_io::RawlogRecord& record,
                        ConvertedRecord& result);
   sensors::Measurement measurement_from(mrpt::obs::CObservation& observation,
                                         geometry::Stamp stamp);
-  void add_actions(const mrpt::obs::CActionCollection& actions, const RawlogRecord& record,
+  void add_actions(const mrpt::obs::CActionCollection& actions, const mrpt_io::RawlogRecord& record,
                    ConvertedRecord& result);
   void add_up(const mrpt::obs::CActionRobotMovement2D& action);
   void flush_odometry(geometry::Stamp stamp, ConvertedRecord& result);

@@ -8,7 +8,7 @@
 
 #include "folder_opening.hpp"
 #include "rawlog_converter.hpp"
-#include "rawlog_reader.hpp"
+#include "traverse/mrpt_io/rawlog_reader.hpp"
 #include "rawlog_sensors.hpp"
 #include "reorder_window.hpp"
 #include "stamp_order.hpp"
@@ -40,7 +40,7 @@ std::string external_folder_of(const fs::path& file) {
 }
 
 struct RawlogBookmark : Bookmark {
-  RawlogReader::Position position;
+  mrpt_io::RawlogReader::Position position;
   RawlogConverter::State converter;
   ReorderWindow window;
   StampOrder order;
@@ -56,7 +56,7 @@ class RawlogSource : public Source {
         external_folder_(external_folder_of(file)),
         info_(begin_info(file, "MRPT rawlog", statements_, "vehicle")),
         sensors_(statements_, options.share_folder, info_),
-        reader_(std::make_unique<RawlogReader>(file)),
+        reader_(std::make_unique<mrpt_io::RawlogReader>(file)),
         converter_(std::in_place, sensors_, external_folder_) {
     set_motion_compensation(info_, statements_, false, "default, not stated");
     preview();
@@ -86,7 +86,7 @@ class RawlogSource : public Source {
   }
 
   void rewind() override {
-    reader_ = std::make_unique<RawlogReader>(file_);
+    reader_ = std::make_unique<mrpt_io::RawlogReader>(file_);
     converter_.emplace(sensors_, external_folder_);
     window_ = {};
     order_ = {};
@@ -163,7 +163,7 @@ class RawlogSource : public Source {
   RawlogSensors sensors_;
   std::optional<Reference> reference_;
 
-  std::unique_ptr<RawlogReader> reader_;
+  std::unique_ptr<mrpt_io::RawlogReader> reader_;
   std::optional<RawlogConverter> converter_;
   ReorderWindow window_;
   StampOrder order_;

@@ -14,8 +14,8 @@
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 
-#include "gz_stream.hpp"
-#include "mrpt_values.hpp"
+#include "traverse/mrpt_io/gz_stream.hpp"
+#include "traverse/mrpt_io/mrpt_values.hpp"
 #include "scan_completion.hpp"
 #include "sidecar.hpp"
 
@@ -61,7 +61,7 @@ mrpt::obs::CObservationVelodyneScan to_observation(const LidarScan& scan,
   }
   cloud.timestamp.reserve(derived.time.size());
   // Ticks from the stamp's own tick, so that times within the sweep are rounded once.
-  const mrpt::Clock::time_point stamp = to_mrpt(scan.stamp);
+  const mrpt::Clock::time_point stamp = mrpt_io::to_mrpt(scan.stamp);
   for (const float time : derived.time) {
     const double ticks = std::isnan(time) ? 0 : time * 1e7;
     cloud.timestamp.push_back(stamp + mrpt::Clock::duration(std::llround(ticks)));
@@ -129,7 +129,7 @@ std::int32_t to_encoder(std::int64_t ticks) {
 mrpt::obs::CObservationOdometry to_observation(const WheelOdometry& odometry) {
   mrpt::obs::CObservationOdometry observation;
   observation.odometry =
-      mrpt::poses::CPose2D(to_mrpt(odometry.T_odom_body.value_or(Pose3::identity())));
+      mrpt::poses::CPose2D(mrpt_io::to_mrpt(odometry.T_odom_body.value_or(Pose3::identity())));
   observation.hasEncodersInfo = odometry.ticks.has_value();
   if (odometry.ticks) {
     observation.encoderLeftTicks = to_encoder(odometry.ticks->left);
@@ -207,15 +207,15 @@ class RawlogWriter : public RecordingWriter {
 
   void write(mrpt::obs::CObservation& observation, geometry::Stamp stamp, const std::string& label,
              const Pose3& T_body_sensor) {
-    observation.timestamp = to_mrpt(stamp);
+    observation.timestamp = mrpt_io::to_mrpt(stamp);
     observation.sensorLabel = label;
-    observation.setSensorPose(to_mrpt(T_body_sensor));
+    observation.setSensorPose(mrpt_io::to_mrpt(T_body_sensor));
     try {
       auto archive = mrpt::serialization::archiveFrom(stream_);
       archive << observation;
     } catch (const std::exception& error) {
       throw files::OutputError(file_,
-                               stream_.fault().empty() ? message_of(error) : stream_.fault());
+                               stream_.fault().empty() ? mrpt_io::message_of(error) : stream_.fault());
     }
   }
 
@@ -231,7 +231,7 @@ class RawlogWriter : public RecordingWriter {
 
   fs::path file_;
   files::AtomicFile output_;
-  GzOutput stream_;
+  mrpt_io::GzOutput stream_;
   const RecordingInfo& info_;
   Sidecar sidecar_;
   bool has_rings_ = false;

@@ -18,9 +18,9 @@
 #include "traverse/geometry/so3.hpp"
 #include "traverse/geometry/voxel.hpp"
 
-#include "mrpt_values.hpp"
-#include "point_attributes.hpp"
-#include "simple_map_file.hpp"
+#include "traverse/mrpt_io/mrpt_values.hpp"
+#include "traverse/mrpt_io/point_attributes.hpp"
+#include "traverse/mrpt_io/simple_map_file.hpp"
 
 namespace traverse::mapping {
 
@@ -50,9 +50,9 @@ std::vector<std::size_t> thinned(const MapKeyframe& keyframe, double voxel_m) {
   return kept;
 }
 
-dataset::PointAttributes attributes_of(const MapKeyframe& keyframe,
+mrpt_io::PointAttributes attributes_of(const MapKeyframe& keyframe,
                                        const std::vector<std::size_t>& kept) {
-  dataset::PointAttributes attributes;
+  mrpt_io::PointAttributes attributes;
   for (const std::size_t i : kept) {
     if (!keyframe.time.empty()) attributes.time.push_back(keyframe.time[i]);
     if (!keyframe.ring.empty()) attributes.ring.push_back(keyframe.ring[i]);
@@ -73,10 +73,10 @@ mrpt::obs::CObservationPointCloud::Ptr cloud_of(const MapKeyframe& keyframe,
   }
   points->mark_as_modified();
   auto observation = mrpt::obs::CObservationPointCloud::Create();
-  observation->timestamp = dataset::to_mrpt(keyframe.stamp);
+  observation->timestamp = mrpt_io::to_mrpt(keyframe.stamp);
   observation->sensorLabel = keyframe.sensor;
   observation->sensorPose =
-      dataset::to_mrpt(geometry::Pose3{Eigen::Matrix3d::Identity(), keyframe.p_body_sensor});
+      mrpt_io::to_mrpt(geometry::Pose3{Eigen::Matrix3d::Identity(), keyframe.p_body_sensor});
   observation->pointcloud = points;
   return observation;
 }
@@ -113,20 +113,20 @@ bool KeyframeMap::wants(const geometry::Pose3& T_map_body) const {
 void KeyframeMap::add(const MapKeyframe& keyframe) {
   const std::vector<std::size_t> kept = thinned(keyframe, options_.voxel_m);
   auto frame = mrpt::obs::CSensoryFrame::Create();
-  const dataset::PointAttributes attributes = attributes_of(keyframe, kept);
-  if (!attributes.empty()) frame->insert(dataset::to_observation(attributes, keyframe.stamp));
+  const mrpt_io::PointAttributes attributes = attributes_of(keyframe, kept);
+  if (!attributes.empty()) frame->insert(mrpt_io::to_observation(attributes, keyframe.stamp));
   frame->insert(cloud_of(keyframe, kept));
 
   Bytes written;
   auto archive = mrpt::serialization::archiveFrom(written);
-  archive << mrpt::poses::CPose3DPDFGaussian(dataset::to_mrpt(keyframe.T_map_body)) << *frame;
+  archive << mrpt::poses::CPose3DPDFGaussian(mrpt_io::to_mrpt(keyframe.T_map_body)) << *frame;
   content_->places.push_back({content_->scratch.append(written.bytes), written.bytes.size()});
   T_map_last_ = keyframe.T_map_body;
 }
 
 void KeyframeMap::write(const std::filesystem::path& file) const {
   std::vector<std::byte> bytes;
-  dataset::write_simple_map(file, size(), [&](auto& archive, std::size_t i) {
+  mrpt_io::write_simple_map(file, size(), [&](auto& archive, std::size_t i) {
     bytes.resize(content_->places[i].bytes);
     content_->scratch.read(content_->places[i].offset, bytes);
     archive.WriteBuffer(bytes.data(), bytes.size());

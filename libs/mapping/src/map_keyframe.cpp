@@ -11,9 +11,9 @@
 
 #include "traverse/files/input_error.hpp"
 
-#include "mrpt_values.hpp"
-#include "point_attributes.hpp"
-#include "simple_map_file.hpp"
+#include "traverse/mrpt_io/mrpt_values.hpp"
+#include "traverse/mrpt_io/point_attributes.hpp"
+#include "traverse/mrpt_io/simple_map_file.hpp"
 
 namespace traverse::mapping {
 
@@ -36,13 +36,13 @@ void append(const mrpt::maps::CPointsMap& points, const geometry::Pose3& T_body_
 
 void append(const mrpt::obs::CObservation& observation, MapKeyframe& keyframe) {
   keyframe.sensor = observation.sensorLabel;
-  if (const auto stamp = dataset::to_stamp(observation.timestamp)) keyframe.stamp = *stamp;
+  if (const auto stamp = mrpt_io::to_stamp(observation.timestamp)) keyframe.stamp = *stamp;
   mrpt::poses::CPose3D T_body_sensor;
   observation.getSensorPose(T_body_sensor);
-  keyframe.p_body_sensor = dataset::to_pose(T_body_sensor).translation;
+  keyframe.p_body_sensor = mrpt_io::to_pose(T_body_sensor).translation;
   if (const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation)) {
     if (cloud->pointcloud != nullptr) {
-      append(*cloud->pointcloud, dataset::to_pose(T_body_sensor), keyframe);
+      append(*cloud->pointcloud, mrpt_io::to_pose(T_body_sensor), keyframe);
     }
     return;
   }
@@ -55,7 +55,7 @@ void append(const mrpt::obs::CObservation& observation, MapKeyframe& keyframe) {
 bool is_part_of_map(const mrpt::obs::CSensoryFrame& frame,
                     const mrpt::obs::CObservation& observation) {
   static const std::string kMapPoints = "map points";
-  if (dataset::holds_attributes(observation)) return false;
+  if (mrpt_io::holds_attributes(observation)) return false;
   return observation.sensorLabel == kMapPoints ||
          frame.getObservationBySensorLabel(kMapPoints) == nullptr;
 }
@@ -77,13 +77,13 @@ void MapKeyframe::keep_only(const std::vector<char>& keep) {
 std::vector<MapKeyframe> read_simple_map(const std::filesystem::path& file) {
   std::vector<MapKeyframe> keyframes;
   std::size_t points = 0;
-  dataset::for_each_keyframe(file, [&](std::size_t, const auto& pose, const auto& frame) {
+  mrpt_io::for_each_keyframe(file, [&](std::size_t, const auto& pose, const auto& frame) {
     MapKeyframe& keyframe = keyframes.emplace_back();
-    keyframe.T_map_body = dataset::to_pose(pose.getMeanVal()).orthonormalised();
+    keyframe.T_map_body = mrpt_io::to_pose(pose.getMeanVal()).orthonormalised();
     for (const auto& observation : frame) {
       if (is_part_of_map(frame, *observation)) append(*observation, keyframe);
     }
-    dataset::PointAttributes attributes = dataset::attributes_of(frame, keyframe.size());
+    mrpt_io::PointAttributes attributes = mrpt_io::attributes_of(frame, keyframe.size());
     keyframe.time = std::move(attributes.time);
     keyframe.ring = std::move(attributes.ring);
     points += keyframe.size();

@@ -17,13 +17,13 @@ namespace {
 /// A map's points as the registration takes them: all make surfaces, those on flat patches are
 /// registered, of each cube of a metre's quarter one. Ends of surfaces are not told by points
 /// alone.
-lidar::voxel::SweepSample features_of(const MapKeyframe& keyframe) {
+voxel_map::SweepSample features_of(const MapKeyframe& keyframe) {
   constexpr double kPatch_m = 0.2;    // fitted in cubes four times as large
   constexpr double kThinned_m = 0.4;  // what is registered
   MapKeyframe at_sensor = keyframe;
   at_sensor.T_map_body = geometry::Pose3{Eigen::Matrix3d::Identity(), -keyframe.p_body_sensor};
   const SurfaceCubes surface = surface_cubes({&at_sensor, 1}, kPatch_m);
-  lidar::voxel::SweepSample sample;
+  voxel_map::SweepSample sample;
   sample.stamp = keyframe.stamp;
   sample.points = keyframe.size();
   std::vector<std::uint8_t> is_flat;
@@ -39,7 +39,7 @@ lidar::voxel::SweepSample features_of(const MapKeyframe& keyframe) {
   sample.surface_is_planar = is_flat;
   sample.surface.time.assign(sample.surface.size(), 0);
   for (const std::uint32_t i :
-       lidar::voxel::first_of_each_cube(sample.surface, is_flat, kThinned_m)) {
+       voxel_map::first_of_each_cube(sample.surface, is_flat, kThinned_m)) {
     sample.planar.append(sample.surface, i);
   }
   return sample;

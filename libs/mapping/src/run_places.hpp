@@ -25,7 +25,7 @@ class RunPlaces {
   const slam::ScanContext& context(std::size_t k) const { return contexts_[k]; }
   /// As if the sensor stood so far to the left (Kim, Choi and Kim, "Scan Context++", T-RO 2022).
   slam::ScanContext context_beside(std::size_t k, double left_m) const;
-  const lidar::voxel::SweepSample& features(std::size_t k) const { return keyframes_[k]->features; }
+  const voxel_map::SweepSample& features(std::size_t k) const { return keyframes_[k]->features; }
 
   /// The surfaces that keyframe k and those around it saw, in its frame.
   slam::Submap submap(std::size_t k, int keyframes_around) const;

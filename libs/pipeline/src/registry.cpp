@@ -9,9 +9,9 @@
 
 #include "traverse/files/input_error.hpp"
 #include "traverse/inertial/navigation_options.hpp"
-#include "traverse/lidar/scan_to_map_odometry.hpp"
-#include "traverse/lidar/two_stage_odometry.hpp"
-#include "traverse/lidar/voxel/voxel_map_odometry.hpp"
+#include "traverse/loam/scan_to_map_odometry.hpp"
+#include "traverse/loam/two_stage_odometry.hpp"
+#include "traverse/voxel_map/voxel_map_odometry.hpp"
 
 #include "lidar_estimator.hpp"
 #include "navigation_estimator.hpp"
@@ -95,10 +95,10 @@ const Kind& find_kind(const Preset& preset) {
   static const std::map<std::string, Kind, std::less<>> kKinds{
       {"gins_two_frame", kNavigationKind<inertial::TwoFrameOptions>},
       {"gins_window", kNavigationKind<inertial::SlidingWindowOptions>},
-      {"scan_to_map", kLidarKind<lidar::ScanToMapOdometry, lidar::ScanToMapOdometryOptions>},
-      {"two_stage", kLidarKind<lidar::TwoStageOdometry, lidar::TwoStageOdometryOptions>},
+      {"scan_to_map", kLidarKind<loam::ScanToMapOdometry, loam::ScanToMapOdometryOptions>},
+      {"two_stage", kLidarKind<loam::TwoStageOdometry, loam::TwoStageOdometryOptions>},
       {"voxel_map",
-       kLidarKind<lidar::voxel::VoxelMapOdometry, lidar::voxel::VoxelMapOdometryOptions>}};
+       kLidarKind<voxel_map::VoxelMapOdometry, voxel_map::VoxelMapOdometryOptions>}};
   const std::string name = preset.resolved.scalar("estimator").value_or("");
   const auto found = kKinds.find(name);
   if (found != kKinds.end()) return found->second;

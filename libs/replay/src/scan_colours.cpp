@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "traverse/lidar/features.hpp"
+#include "traverse/lidar/feature_class.hpp"
 #include "traverse/render/colour_map.hpp"
 #include "traverse/render/palette.hpp"
 #include "traverse/render/theme.hpp"

@@ -15,8 +15,8 @@ namespace traverse::report {
 
 namespace {
 
-using lidar::FactorBench;
-using lidar::Spread;
+using loam::FactorBench;
+using loam::Spread;
 using optimization::JacobianAudit;
 
 HtmlTable jacobians_table(const JacobianAudit& audit) {

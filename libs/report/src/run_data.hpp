@@ -11,7 +11,7 @@
 #include "traverse/evaluation/evaluate.hpp"
 #include "traverse/evaluation/worst_segments.hpp"
 #include "traverse/geometry/trajectory.hpp"
-#include "traverse/lidar/factor_bench.hpp"
+#include "traverse/loam/factor_bench.hpp"
 #include "traverse/optimization/jacobian_audit.hpp"
 #include "traverse/pipeline/frame_table.hpp"
 #include "traverse/slam/loop.hpp"
@@ -34,7 +34,7 @@ struct RunData {
   std::optional<dataset::PointCloud> sample_scan;
   std::optional<dataset::PointCloud> worst_frames;
   std::optional<optimization::JacobianAudit> jacobians;
-  std::optional<lidar::FactorBench> factor_bench;
+  std::optional<loam::FactorBench> factor_bench;
 
   std::string recording_name() const { return record.at("recording").at("name"); }
   std::string pipeline_name() const { return record.at("pipeline"); }

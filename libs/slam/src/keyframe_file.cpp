@@ -16,9 +16,9 @@
 
 #include "traverse/files/input_error.hpp"
 
-#include "mrpt_values.hpp"
-#include "point_attributes.hpp"
-#include "simple_map_file.hpp"
+#include "traverse/mrpt_io/mrpt_values.hpp"
+#include "traverse/mrpt_io/point_attributes.hpp"
+#include "traverse/mrpt_io/simple_map_file.hpp"
 
 namespace traverse::slam {
 
@@ -49,7 +49,7 @@ std::string comment_of(const Keyframe& keyframe) {
 mrpt::obs::CObservationPointCloud::Ptr observation(const char* label, geometry::Stamp stamp,
                                                    mrpt::maps::CPointsMap::Ptr points) {
   auto result = mrpt::obs::CObservationPointCloud::Create();
-  result->timestamp = dataset::to_mrpt(stamp);
+  result->timestamp = mrpt_io::to_mrpt(stamp);
   result->sensorLabel = label;
   points->mark_as_modified();
   result->pointcloud = std::move(points);
@@ -66,7 +66,7 @@ mrpt::maps::CPointsMap::Ptr with_intensity(const KeyframePoints& from) {
   return points;
 }
 
-mrpt::maps::CPointsMap::Ptr plain(const lidar::voxel::SweepPoints& from) {
+mrpt::maps::CPointsMap::Ptr plain(const voxel_map::SweepPoints& from) {
   auto points = mrpt::maps::CSimplePointsMap::Create();
   points->reserve(from.size());
   for (std::size_t i = 0; i < from.size(); ++i) {
@@ -78,13 +78,13 @@ mrpt::maps::CPointsMap::Ptr plain(const lidar::voxel::SweepPoints& from) {
 mrpt::obs::CSensoryFrame::Ptr sensory_frame(const Keyframe& keyframe) {
   auto frame = mrpt::obs::CSensoryFrame::Create();
   frame->insert(observation(kMapPoints, keyframe.stamp, with_intensity(keyframe.points)));
-  const dataset::PointAttributes attributes{keyframe.points.time, keyframe.points.ring};
-  if (!attributes.empty()) frame->insert(dataset::to_observation(attributes, keyframe.stamp));
+  const mrpt_io::PointAttributes attributes{keyframe.points.time, keyframe.points.ring};
+  if (!attributes.empty()) frame->insert(mrpt_io::to_observation(attributes, keyframe.stamp));
   frame->insert(observation(kSurfacePoints, keyframe.stamp, plain(keyframe.features.surface)));
   frame->insert(observation(kPlanarPoints, keyframe.stamp, plain(keyframe.features.planar)));
   frame->insert(observation(kEdgePoints, keyframe.stamp, plain(keyframe.features.edges)));
   auto comment = mrpt::obs::CObservationComment::Create();
-  comment->timestamp = dataset::to_mrpt(keyframe.stamp);
+  comment->timestamp = mrpt_io::to_mrpt(keyframe.stamp);
   comment->sensorLabel = "keyframe";
   comment->text = comment_of(keyframe);
   frame->insert(comment);
@@ -97,8 +97,8 @@ KeyframePoints map_points(const mrpt::maps::CPointsMap& from) {
   return points;
 }
 
-lidar::voxel::SweepPoints sweep_points(const mrpt::maps::CPointsMap& from) {
-  lidar::voxel::SweepPoints points;
+voxel_map::SweepPoints sweep_points(const mrpt::maps::CPointsMap& from) {
+  voxel_map::SweepPoints points;
   for (std::size_t i = 0; i < from.size(); ++i) {
     float x = 0;
     float y = 0;
@@ -126,25 +126,25 @@ const mrpt::maps::CPointsMap& cloud(const mrpt::obs::CSensoryFrame& frame, const
 
 void write_keyframes(const std::filesystem::path& file, const KeyframeStore& keyframes,
                      const std::function<geometry::Pose3(std::size_t)>& T_map_lidar) {
-  dataset::write_simple_map(file, keyframes.size(), [&](auto& archive, std::size_t i) {
-    archive << mrpt::poses::CPose3DPDFGaussian(dataset::to_mrpt(T_map_lidar(i)))
+  mrpt_io::write_simple_map(file, keyframes.size(), [&](auto& archive, std::size_t i) {
+    archive << mrpt::poses::CPose3DPDFGaussian(mrpt_io::to_mrpt(T_map_lidar(i)))
             << *sensory_frame(*keyframes.at(i));
   });
 }
 
 std::vector<MapKeyframe> read_keyframes(const std::filesystem::path& file) {
   std::vector<MapKeyframe> keyframes;
-  dataset::for_each_keyframe(file, [&](std::size_t i, const auto& pose, const auto& frame) {
+  mrpt_io::for_each_keyframe(file, [&](std::size_t i, const auto& pose, const auto& frame) {
     MapKeyframe keyframe;
     keyframe.content.id = i;
     keyframe.content.points = map_points(cloud(frame, kMapPoints, file, i));
     keyframe.content.features.surface = sweep_points(cloud(frame, kSurfacePoints, file, i));
     keyframe.content.features.planar = sweep_points(cloud(frame, kPlanarPoints, file, i));
     keyframe.content.features.edges = sweep_points(cloud(frame, kEdgePoints, file, i));
-    const auto stamp = dataset::to_stamp(frame.getObservationBySensorLabel(kMapPoints)->timestamp);
+    const auto stamp = mrpt_io::to_stamp(frame.getObservationBySensorLabel(kMapPoints)->timestamp);
     keyframe.stamp = stamp.value_or(geometry::Stamp{});
     keyframe.content.stamp = keyframe.stamp;
-    keyframe.T_map_lidar = dataset::to_pose(pose.getMeanVal());
+    keyframe.T_map_lidar = mrpt_io::to_pose(pose.getMeanVal());
     keyframe.content.T_odom_lidar = keyframe.T_map_lidar;
     keyframes.push_back(std::move(keyframe));
   });

@@ -9,11 +9,11 @@
 #include "traverse/geometry/angle.hpp"
 #include "traverse/geometry/so3.hpp"
 #include "traverse/geometry/voxel.hpp"
-#include "traverse/lidar/voxel/local_points.hpp"
+#include "traverse/voxel_map/local_points.hpp"
 #include "traverse/sensors/rings.hpp"
 #include "traverse/sensors/sweep_timing.hpp"
 
-#include "voxel/workers.hpp"
+#include "traverse/parallel/workers.hpp"
 
 namespace traverse::slam {
 
@@ -53,8 +53,8 @@ KeyframePoints thinned(const sensors::LidarScan& scan, const lidar::CorrectedSca
   return points;
 }
 
-void deskew(lidar::voxel::SweepPoints& points, const geometry::Twist& velocity) {
-  const lidar::voxel::SweepMotion motion(velocity);
+void deskew(voxel_map::SweepPoints& points, const geometry::Twist& velocity) {
+  const voxel_map::SweepMotion motion(velocity);
   for (std::size_t i = 0; i < points.size(); ++i) {
     motion.apply(points.time[i], points.x[i], points.y[i], points.z[i]);
     points.time[i] = 0;
@@ -103,7 +103,7 @@ bool KeyframeMaker::observe(const lidar::Frame& frame) {
 
 Keyframe KeyframeMaker::make(const lidar::Frame& frame, const sensors::LidarScan& scan,
                              const lidar::CorrectedScan& points, bool deskewed_by_velocity) {
-  lidar::voxel::Workers alone(1);
+  parallel::Workers alone(1);
   Keyframe keyframe;
   keyframe.id = made_++;
   keyframe.stamp = frame.stamp;
@@ -153,7 +153,7 @@ geometry::Matrix6 registration_covariance(const lidar::RegistrationHealth& healt
   return covariance;
 }
 
-lidar::voxel::SweepSample deskewed(lidar::voxel::SweepSample sample,
+voxel_map::SweepSample deskewed(voxel_map::SweepSample sample,
                                    const geometry::Twist& velocity) {
   for (auto* points : {&sample.surface, &sample.planar, &sample.edges}) deskew(*points, velocity);
   return sample;

@@ -9,7 +9,7 @@ namespace traverse::slam {
 
 namespace {
 
-std::size_t bytes_of(const lidar::voxel::SweepPoints& points) {
+std::size_t bytes_of(const voxel_map::SweepPoints& points) {
   return points.size() * (5 * sizeof(float) + sizeof(std::uint32_t));
 }
 
@@ -17,7 +17,7 @@ std::size_t bytes_of(const lidar::voxel::SweepPoints& points) {
 
 std::size_t bytes_of(const Keyframe& keyframe) {
   const KeyframePoints& points = keyframe.points;
-  const lidar::voxel::SweepSample& features = keyframe.features;
+  const voxel_map::SweepSample& features = keyframe.features;
   return sizeof(Keyframe) +
          sizeof(float) * (3 * points.size() + points.intensity.size() + points.time.size()) +
          sizeof(std::uint16_t) * points.ring.size() + bytes_of(features.surface) +

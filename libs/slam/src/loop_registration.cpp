@@ -6,18 +6,18 @@
 #include "traverse/geometry/angle.hpp"
 #include "traverse/geometry/so3.hpp"
 
-#include "voxel/workers.hpp"
+#include "traverse/parallel/workers.hpp"
 
 namespace traverse::slam {
 
 namespace {
 
-using lidar::voxel::Alignment;
-using lidar::voxel::AlignmentOptions;
-using lidar::voxel::Effort;
+using voxel_map::Alignment;
+using voxel_map::AlignmentOptions;
+using voxel_map::Effort;
 
 constexpr Effort kMuchEffort{6, 2};
-const lidar::voxel::MotionModel kStanding{{}, 1, false};  // keyframes are deskewed
+const voxel_map::MotionModel kStanding{{}, 1, false};  // keyframes are deskewed
 
 std::size_t support_of(const Alignment& found) {
   return found.health.registered ? found.standing_planes + 2 * found.health.line_matches : 0;
@@ -90,13 +90,13 @@ std::vector<geometry::Pose3> starts_around(const geometry::Pose3& guess, const S
 }
 
 double overlap_at(const geometry::Pose3& T_centre_lidar, const Submap& submap,
-                  const lidar::voxel::SweepSample& features,
+                  const voxel_map::SweepSample& features,
                   const LoopRegistrationOptions& options) {
   const std::size_t points = features.planar.size() + features.edges.size();
   if (points == 0) return 0;
-  lidar::voxel::Workers alone(1);
+  parallel::Workers alone(1);
   lidar::StageTimes ignored;
-  lidar::voxel::ScanMatches matches;
+  voxel_map::ScanMatches matches;
   const Alignment found = align(features, submap.map, kStanding, T_centre_lidar,
                                 only_on_surfaces(options.alignment, options.on_surface_m), Effort{},
                                 alone, matches, ignored);
@@ -104,12 +104,12 @@ double overlap_at(const geometry::Pose3& T_centre_lidar, const Submap& submap,
   return static_cast<double>(on_surfaces) / static_cast<double>(points);
 }
 
-LoopRegistration register_in(const Submap& submap, const lidar::voxel::SweepSample& features,
+LoopRegistration register_in(const Submap& submap, const voxel_map::SweepSample& features,
                              std::span<const geometry::Pose3> starts_centre_lidar,
                              const LoopRegistrationOptions& options) {
-  lidar::voxel::Workers alone(1);
+  parallel::Workers alone(1);
   lidar::StageTimes ignored;
-  lidar::voxel::ScanMatches matches;
+  voxel_map::ScanMatches matches;
   const auto align_from = [&](const geometry::Pose3& start, const AlignmentOptions& how,
                               const Effort& effort) {
     return align(features, submap.map, kStanding, start, how, effort, alone, matches, ignored);

@@ -17,17 +17,17 @@ constexpr std::size_t kSubmapsKept = 16;
 constexpr std::size_t kFewPoints = 500;
 constexpr double kSpacingOfRegion = 0.5;  ///< of the starts at most, shares of the radius
 
-lidar::voxel::SweepPoints every(std::size_t step, const lidar::voxel::SweepPoints& all) {
-  lidar::voxel::SweepPoints points;
+voxel_map::SweepPoints every(std::size_t step, const voxel_map::SweepPoints& all) {
+  voxel_map::SweepPoints points;
   for (std::size_t i = 0; i < all.size(); i += step) points.append(all, i);
   return points;
 }
 
 /// About kFewPoints of those that a scan is registered by, from all over it.
-lidar::voxel::SweepSample few_of(const lidar::voxel::SweepSample& features) {
+voxel_map::SweepSample few_of(const voxel_map::SweepSample& features) {
   const std::size_t count = features.planar.size() + features.edges.size();
   const std::size_t step = std::max<std::size_t>(1, count / kFewPoints);
-  lidar::voxel::SweepSample few;
+  voxel_map::SweepSample few;
   few.planar = every(step, features.planar);
   few.edges = every(step, features.edges);
   return few;
@@ -39,7 +39,7 @@ bool covers(const SearchRegion& region, const geometry::Pose3& guess, const geom
          geometry::angle_of(between.rotation) <= region.half_turn_rad;
 }
 
-double support_a_point(const LoopRegistration& found, const lidar::voxel::SweepSample& features) {
+double support_a_point(const LoopRegistration& found, const voxel_map::SweepSample& features) {
   const std::size_t most = features.planar.size() + 2 * features.edges.size();
   return most == 0 ? 0 : static_cast<double>(found.support) / static_cast<double>(most);
 }
@@ -121,7 +121,7 @@ std::vector<geometry::Pose3> MapPlaces::alike(const KeyframePoints& scan, std::s
 }
 
 MapPlaces::Fit MapPlaces::fit(const geometry::Pose3& guess_T_map_lidar, const SearchRegion& region,
-                              const lidar::voxel::SweepSample& features) {
+                              const voxel_map::SweepSample& features) {
   const auto around = surroundings(nearest(guess_T_map_lidar.translation).number);
   const Submap& submap = around->submap;
   const geometry::Pose3& T_map_centre = map_->keyframes[submap.centre].T_map_lidar;
@@ -170,7 +170,7 @@ std::shared_ptr<const MapPlaces::Surroundings> MapPlaces::surroundings(std::size
                       T_map_centre.inverse() * keyframes[i].T_map_lidar});
   }
   Surroundings made{make_submap(centre, placed, options_.submap.map), 0};
-  const lidar::voxel::SweepSample& own = keyframes[centre].content.features;
+  const voxel_map::SweepSample& own = keyframes[centre].content.features;
   const std::vector<geometry::Pose3> there{geometry::Pose3::identity()};
   made.own_support =
       support_a_point(register_in(made.submap, own, there, options_.registration), own);

@@ -1,6 +1,6 @@
 #include "traverse/slam/submap.hpp"
 
-#include "voxel/workers.hpp"
+#include "traverse/parallel/workers.hpp"
 
 namespace traverse::slam {
 
@@ -13,10 +13,10 @@ void bind(config::Binder& b, SubmapOptions& o) {
 }
 
 Submap make_submap(std::size_t centre, std::span<const PlacedKeyframe> keyframes,
-                   const lidar::voxel::VoxelMapOptions& options) {
-  lidar::voxel::Workers alone(1);
+                   const voxel_map::VoxelMapOptions& options) {
+  parallel::Workers alone(1);
   Submap submap{centre, keyframes.front().keyframe->id, keyframes.back().keyframe->id,
-                lidar::voxel::VoxelMap(options)};
+                voxel_map::VoxelMap(options)};
   for (const PlacedKeyframe& placed : keyframes) {
     submap.map.insert(placed.keyframe->features, placed.T_centre_lidar, geometry::Twist::Zero(),
                       alone);

@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "traverse/geometry/pose3.hpp"
-#include "traverse/lidar/features.hpp"
+#include "traverse/lidar/feature_class.hpp"
+#include "traverse/lidar/scan_lines.hpp"
 #include "traverse/sensors/lidar_profile.hpp"
 #include "traverse/sensors/lidar_scan.hpp"
 
@@ -22,10 +23,8 @@ struct CorrectedScan {
 CorrectedScan corrected(const sensors::LidarScan& scan, const sensors::LidarProfile& profile,
                         const geometry::Twist& velocity);
 
-/// The same with the feature class of each point.
-CorrectedScan corrected_and_classified(const sensors::LidarScan& scan,
-                                       const sensors::LidarProfile& profile,
-                                       const geometry::Twist& velocity,
-                                       const FeatureOptions& options);
+/// The same of a scan that is organised already; takes the points out of `lines`.
+CorrectedScan corrected(ScanLines lines, const sensors::LidarScan& scan,
+                        const sensors::LidarProfile& profile, const geometry::Twist& velocity);
 
 }  // namespace traverse::lidar

@@ -1,12 +1,14 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
 #include "traverse/geometry/pose3.hpp"
 #include "traverse/geometry/stamp.hpp"
-#include "traverse/lidar/degeneracy.hpp"
-#include "traverse/lidar/scan_features.hpp"
+#include "traverse/lidar/feature_class.hpp"
+#include "traverse/lidar/observability.hpp"
+#include "traverse/lidar/scan_lines.hpp"
 
 namespace traverse::lidar {
 

@@ -15,7 +15,7 @@ class CostFunction;
 }
 
 /// How a library registers its factors for the check of their Jacobians: it returns one FactorKind
-/// for each, as lidar::factor_kinds() does, and pipeline::factor_kinds() lists it.
+/// for each, as loam::factor_kinds() does, and pipeline::factor_kinds() lists it.
 namespace traverse::optimization {
 
 /// A parameter block of a factor.

@@ -10,7 +10,7 @@
 #include "traverse/geometry/se3.hpp"
 #include "traverse/geometry/stamp.hpp"
 #include "traverse/lidar/frame.hpp"
-#include "traverse/lidar/voxel/sweep_sample.hpp"
+#include "traverse/voxel_map/sweep_sample.hpp"
 
 namespace traverse::slam {
 
@@ -33,7 +33,7 @@ struct Keyframe {
 
   KeyframePoints points;
   /// What scans are registered by, deskewed: every time is zero and velocity no longer matters.
-  lidar::voxel::SweepSample features;
+  voxel_map::SweepSample features;
 
   /// Of the motion T_i_j from the keyframe before (i) to this one (j): [rotation, rad, right
   /// perturbation, axes of j; translation, metres, axes of i]. Zero for the first keyframe.

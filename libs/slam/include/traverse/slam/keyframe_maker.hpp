@@ -27,7 +27,7 @@ struct KeyframeOptions {
   double spacing_deg = 20;  ///< or so much rotation
   double cube_m = 0.1;      ///< of a keyframe's map points one a cube of this edge is kept
   StepNoiseOptions noise;
-  lidar::voxel::SamplingOptions sampling;
+  voxel_map::SamplingOptions sampling;
 };
 void bind(config::Binder& binder, KeyframeOptions& options);
 
@@ -62,7 +62,7 @@ class KeyframeMaker {
 geometry::Matrix6 registration_covariance(const lidar::RegistrationHealth& health);
 
 /// The features of a scan moved to where they stood at its stamp.
-lidar::voxel::SweepSample deskewed(lidar::voxel::SweepSample sample,
+voxel_map::SweepSample deskewed(voxel_map::SweepSample sample,
                                    const geometry::Twist& velocity);
 
 }  // namespace traverse::slam

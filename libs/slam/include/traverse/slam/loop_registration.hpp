@@ -5,13 +5,13 @@
 
 #include "traverse/config/binder.hpp"
 #include "traverse/geometry/pose3.hpp"
-#include "traverse/lidar/voxel/alignment.hpp"
+#include "traverse/voxel_map/alignment.hpp"
 #include "traverse/slam/submap.hpp"
 
 namespace traverse::slam {
 
 struct LoopRegistrationOptions {
-  lidar::voxel::AlignmentOptions alignment;
+  voxel_map::AlignmentOptions alignment;
   double start_spacing_m = 1;  ///< between the starts of the search, in the ground plane
   double start_spacing_deg = 5;
   int most_starts = 400;
@@ -40,13 +40,13 @@ std::vector<geometry::Pose3> starts_around(const geometry::Pose3& guess, const S
 
 /// Share of the points that lie on planes and lines of the submap when the lidar stands there.
 double overlap_at(const geometry::Pose3& T_centre_lidar, const Submap& submap,
-                  const lidar::voxel::SweepSample& features,
+                  const voxel_map::SweepSample& features,
                   const LoopRegistrationOptions& options);
 
 /// Registers the keyframe's features on the planes and lines of the submap as the odometry does:
 /// briefly from every start, then to the end from that under which most points find their place
 /// (as find_initial_velocity does; the lowest cost would favour poses with few matches).
-LoopRegistration register_in(const Submap& submap, const lidar::voxel::SweepSample& features,
+LoopRegistration register_in(const Submap& submap, const voxel_map::SweepSample& features,
                              std::span<const geometry::Pose3> starts_centre_lidar,
                              const LoopRegistrationOptions& options);
 

@@ -64,7 +64,7 @@ class MapPlaces {
   /// Registers a scan in the surroundings of the keyframe nearest to a guess, and checks what was
   /// found.
   Fit fit(const geometry::Pose3& guess_T_map_lidar, const SearchRegion& region,
-          const lidar::voxel::SweepSample& features);
+          const voxel_map::SweepSample& features);
 
  private:
   /// What copies share.

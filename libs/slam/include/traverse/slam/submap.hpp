@@ -6,7 +6,7 @@
 
 #include "traverse/config/binder.hpp"
 #include "traverse/geometry/pose3.hpp"
-#include "traverse/lidar/voxel/voxel_map.hpp"
+#include "traverse/voxel_map/voxel_map.hpp"
 #include "traverse/slam/keyframe.hpp"
 
 namespace traverse::slam {
@@ -16,14 +16,14 @@ struct Submap {
   std::size_t centre = 0;  ///< id of the keyframe whose frame it is
   std::size_t first = 0;   ///< the keyframes it is made of, both included
   std::size_t last = 0;
-  lidar::voxel::VoxelMap map;
+  voxel_map::VoxelMap map;
   double own_overlap = 1;  ///< share of its centre's points that lie on it: less among leaves
 };
 
 struct SubmapOptions {
   int keyframes_before = 6;  ///< of the submap's centre
   int keyframes_after = 6;
-  lidar::voxel::VoxelMapOptions map;
+  voxel_map::VoxelMapOptions map;
 };
 void bind(config::Binder& binder, SubmapOptions& options);
 
@@ -35,6 +35,6 @@ struct PlacedKeyframe {
 
 /// \param keyframes in order of their ids, not empty
 Submap make_submap(std::size_t centre, std::span<const PlacedKeyframe> keyframes,
-                   const lidar::voxel::VoxelMapOptions& options);
+                   const voxel_map::VoxelMapOptions& options);
 
 }  // namespace traverse::slam

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <mrpt/obs/CObservationRawDAQ.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include "traverse/geometry/stamp.hpp"
+
+namespace traverse::mrpt_io {
+
+/// What MRPT 2.5's point clouds cannot hold of their points.
+struct PointAttributes {
+  std::vector<float> time;          ///< seconds after the stamp; empty, or one a point
+  std::vector<std::uint16_t> ring;  ///< empty, or one a point
+
+  bool empty() const { return time.empty() && ring.empty(); }
+};
+
+/// As an observation that stands beside the cloud in a sensory frame. It has no points of its own,
+/// so MRPT's programs make the same maps of the frame with and without it.
+mrpt::obs::CObservationRawDAQ::Ptr to_observation(const PointAttributes& attributes,
+                                                  geometry::Stamp stamp);
+
+/// Whether the observation is one of those.
+bool holds_attributes(const mrpt::obs::CObservation& observation);
+
+/// Those of a frame whose cloud has `points`; empty where it holds none for so many.
+PointAttributes attributes_of(const mrpt::obs::CSensoryFrame& frame, std::size_t points);
+
+}  // namespace traverse::mrpt_io

@@ -1,0 +1,117 @@
+#include "traverse/mrpt_io/simple_map_file.hpp"
+
+#include <cstdint>
+#include <exception>
+
+#include <mrpt/maps/CSimpleMap.h>
+
+#include "traverse/files/atomic_file.hpp"
+#include "traverse/files/input_error.hpp"
+
+#include "traverse/mrpt_io/gz_stream.hpp"
+#include "traverse/mrpt_io/mrpt_values.hpp"
+
+namespace traverse::mrpt_io {
+
+namespace {
+
+constexpr int kCompression = 1;  // as MRPT's
+constexpr std::uint8_t kPosesOfSpace = 1;
+
+// To MRPT's archives both classes are the map they are derived from: they add no run-time type and
+// only say otherwise what stands between a map's head and its end.
+
+class WrittenOneByOne final : public mrpt::maps::CSimpleMap {
+ public:
+  WrittenOneByOne(std::size_t keyframes,
+                  const std::function<void(mrpt::serialization::CArchive&, std::size_t)>& write)
+      : keyframes_(keyframes), write_(write) {}
+
+ protected:
+  std::uint8_t serializeGetVersion() const override { return kPosesOfSpace; }
+  void serializeTo(mrpt::serialization::CArchive& archive) const override {
+    archive << static_cast<std::uint32_t>(keyframes_);
+    for (std::size_t i = 0; i < keyframes_; ++i) write_(archive, i);
+  }
+
+ private:
+  std::size_t keyframes_;
+  const std::function<void(mrpt::serialization::CArchive&, std::size_t)>& write_;
+};
+
+class TakenOneByOne final : public mrpt::maps::CSimpleMap {
+ public:
+  using Take = std::function<void(std::size_t, const mrpt::poses::CPose3DPDF&,
+                                  const mrpt::obs::CSensoryFrame&)>;
+  explicit TakenOneByOne(const Take& take) : take_(take) {}
+
+  std::size_t taken() const { return taken_; }
+  /// What `take` threw; MRPT would throw something else instead.
+  const std::exception_ptr& error() const { return error_; }
+
+ protected:
+  void serializeFrom(mrpt::serialization::CArchive& archive, std::uint8_t version) override {
+    if (version != kPosesOfSpace) {  // of the plane, or of a later MRPT: left to MRPT
+      CSimpleMap::serializeFrom(archive, version);
+      for (const Pair& pair : *this) take(*pair.pose, *pair.sf);
+      return;
+    }
+    const auto keyframes = archive.ReadAs<std::uint32_t>();
+    for (std::uint32_t i = 0; i < keyframes; ++i) {
+      const auto pose = archive.ReadObject<mrpt::poses::CPose3DPDF>();
+      const auto frame = archive.ReadObject<mrpt::obs::CSensoryFrame>();
+      if (!pose || !frame) throw std::runtime_error("a keyframe without pose or scan");
+      take(*pose, *frame);
+    }
+  }
+
+ private:
+  void take(const mrpt::poses::CPose3DPDF& pose, const mrpt::obs::CSensoryFrame& frame) {
+    try {
+      take_(taken_++, pose, frame);
+    } catch (...) {
+      error_ = std::current_exception();
+      throw;
+    }
+  }
+
+  const Take& take_;
+  std::size_t taken_ = 0;
+  std::exception_ptr error_;
+};
+
+}  // namespace
+
+void write_simple_map(
+    const std::filesystem::path& file, std::size_t keyframes,
+    const std::function<void(mrpt::serialization::CArchive& archive, std::size_t i)>& write) {
+  files::AtomicFile target(file);
+  GzOutput stream(target.temporary_path(), kCompression);
+  try {
+    auto archive = mrpt::serialization::archiveFrom(stream);
+    archive << WrittenOneByOne(keyframes, write);
+    stream.close();
+  } catch (const std::exception& error) {
+    throw files::OutputError(file, stream.fault().empty() ? message_of(error) : stream.fault());
+  }
+  target.commit();
+}
+
+std::size_t for_each_keyframe(
+    const std::filesystem::path& file,
+    const std::function<void(std::size_t i, const mrpt::poses::CPose3DPDF& pose,
+                             const mrpt::obs::CSensoryFrame& frame)>& take) {
+  GzInput stream(file);
+  TakenOneByOne map(take);
+  try {
+    auto archive = mrpt::serialization::archiveFrom(stream);
+    archive.ReadObject(&map);
+  } catch (const std::exception& error) {
+    if (map.error()) std::rethrow_exception(map.error());
+    throw files::InputError(file, files::Place::whole_file(), "a simple map of MRPT",
+                            stream.fault().empty() ? message_of(error) : stream.fault());
+  }
+  return map.taken();
+}
+
+}  // namespace traverse::mrpt_io

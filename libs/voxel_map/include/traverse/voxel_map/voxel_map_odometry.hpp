@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "traverse/lidar/held_back.hpp"
+#include "traverse/lidar/odometry.hpp"
+#include "traverse/parallel/workers.hpp"
+#include "traverse/voxel_map/start_search.hpp"
+
+namespace traverse::voxel_map {
+
+struct VoxelMapOdometryOptions {
+  bool deskew = true;  ///< undo the motion within a sweep, unless the recording did
+  SamplingOptions sampling;
+  VoxelMapOptions map;
+  AlignmentOptions alignment;
+  StartSearchOptions start;
+  int first_frames = 5;  ///< registered with more effort: their predictions are worse
+  int threads = 1;       ///< the result does not depend on it
+};
+void bind(config::Binder& binder, VoxelMapOdometryOptions& options);
+
+/// The fast and accurate odometry: planar points against the planes, ends of surfaces against the
+/// lines of a voxel map.
+///
+///     for each scan:  sample planar points and edge points along the rings
+///                     predict the pose by the last velocity
+///                     align: associate by cell, minimise the robust cost, deskew by the result
+///                     insert the sample at the pose found
+///
+/// What happens to odd input: points that are not finite, at the origin, out of range or of a ring
+/// beyond the profile's are left out and counted. A scan with too few matches keeps the prediction,
+/// says so in its health and does not enter the map, unless there is no map yet. A scan stamped no
+/// later than the one before counts as taken one sweep later. Scans without rings are cut into rows
+/// by elevation.
+class VoxelMapOdometry final : public lidar::Odometry {
+ public:
+  /// \param profile of the sensor  \param motion_compensated the scans need no deskew
+  VoxelMapOdometry(const VoxelMapOdometryOptions& options, const sensors::LidarProfile& profile,
+                   bool motion_compensated);
+
+  std::vector<lidar::Frame> process(const sensors::LidarScan& scan) override;
+  std::vector<lidar::Frame> finish() override;
+  const std::string& deskew_note() const override { return deskew_note_; }
+
+  /// Classes: kSharp an edge point, kFlat a registered planar point, kLessFlat another planar
+  /// point, kNone a point that was not sampled or is not planar.
+  lidar::CorrectedScan used_scan(const sensors::LidarScan& scan, const geometry::Twist& velocity,
+                                 bool with_classes) const override;
+
+  std::unique_ptr<lidar::Odometry> clone() const override {
+    return std::make_unique<VoxelMapOdometry>(*this);
+  }
+  std::size_t bytes() const override { return map_.bytes() + matches_.bytes(); }
+
+  /// The middle of the points of each cell that has a plane or a line.
+  std::vector<Eigen::Vector3d> local_map() const override;
+  std::vector<lidar::MatchedPoint> matches() const override;
+  /// The rows of row_factor_kinds(), of which the cost is the sum.
+  std::vector<optimization::FactorUse> factors() const override;
+
+  const VoxelMap& map() const { return map_; }
+
+ private:
+  std::vector<lidar::Frame> advance_all(const std::vector<SweepSample>& scans);
+  lidar::Frame advance(const SweepSample& sample, double start_ms);
+  double interval(geometry::Stamp earlier, geometry::Stamp later) const;
+
+  VoxelMapOdometryOptions options_;
+  sensors::LidarProfile profile_;
+  std::string deskew_note_;
+  std::shared_ptr<parallel::Workers> workers_;  ///< copies share the threads, which hold no state
+  VoxelMap map_;
+
+  lidar::HeldBack<SweepSample> held_back_;
+
+  std::size_t frames_ = 0;
+  geometry::Stamp last_stamp_;
+  geometry::Pose3 T_map_last_;
+  geometry::Twist velocity_ = geometry::Twist::Zero();  // at the last frame
+  ScanMatches matches_;  // of the last frame; kept for its memory too
+};
+
+}  // namespace traverse::voxel_map

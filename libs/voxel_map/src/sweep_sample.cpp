@@ -1,0 +1,174 @@
+#include "traverse/voxel_map/sweep_sample.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "traverse/sensors/sweep_timing.hpp"
+#include "traverse/sensors/vertical_correction.hpp"
+
+#include "traverse/lidar/stopwatch.hpp"
+#include "point_hash.hpp"
+#include "traverse/parallel/workers.hpp"
+
+namespace traverse::voxel_map {
+
+namespace {
+
+constexpr std::size_t kRowsInChunk = 4;
+constexpr std::size_t kExpected = 2048;  // surface points of a chunk
+constexpr std::size_t kLeastRow = 20;    // points; a shorter row says little and is passed over
+
+/// 0 ... count - 1 in the order of their reversed bits.
+std::vector<std::size_t> bit_reversed_order(std::size_t count) {
+  unsigned bits = 0;
+  while ((std::size_t{1} << bits) < count) ++bits;
+  std::vector<std::size_t> order;
+  order.reserve(count);
+  for (std::size_t k = 0; k < std::size_t{1} << bits; ++k) {
+    std::size_t reversed = 0;
+    for (unsigned b = 0; b < bits; ++b) reversed |= (k >> b & 1U) << (bits - 1 - b);
+    if (reversed < count) order.push_back(reversed);
+  }
+  return order;
+}
+
+Seam seam_of(const sensors::PointClock& clock, const sensors::LidarProfile& profile) {
+  Seam seam;
+  if (!clock.knows()) return seam;
+  if (profile.time_source == sensors::TimeSource::kAzimuth) {
+    const double azimuth = profile.seam_azimuth_deg * std::numbers::pi / 180;
+    seam.by_azimuth = true;
+    seam.x = static_cast<float>(std::cos(azimuth));
+    seam.y = static_cast<float>(std::sin(azimuth));
+  } else {
+    seam.time_jump_s = static_cast<float>(0.25 * profile.sweep_s);
+  }
+  return seam;
+}
+
+/// Times as sensors::PointClock gives them, by the fast azimuth where it would take atan2.
+void set_times(const sensors::PointClock& clock, const sensors::LidarProfile& profile,
+               SweepPoints& points) {
+  if (!clock.knows()) return;
+  const std::size_t n = points.size();
+  if (profile.time_source != sensors::TimeSource::kAzimuth) {
+    for (std::size_t i = 0; i < n; ++i) points.time[i] = clock(points.source[i]);
+    return;
+  }
+  const auto seam = static_cast<float>(profile.seam_azimuth_deg / 360);
+  const float sign = profile.rotation == sensors::Rotation::kClockwise ? -1.0F : 1.0F;
+  const auto stamp = static_cast<float>(profile.stamp_fraction);
+  const auto sweep = static_cast<float>(profile.sweep_s);
+  constexpr auto kPerTurn = static_cast<float>(0.5 / std::numbers::pi);
+  const float* x = points.x.data();
+  const float* y = points.y.data();
+  float* time = points.time.data();
+  for (std::size_t i = 0; i < n; ++i) {
+    const float turned = sign * (fast_azimuth(x[i], y[i]) * kPerTurn - seam);  // within (-2, 2)
+    const float whole = static_cast<float>(static_cast<int>(turned + 4)) - 4;  // the floor
+    time[i] = (turned - whole - stamp) * sweep;
+  }
+}
+
+void correct(const sensors::LidarProfile& profile, SweepPoints& points) {
+  if (profile.vertical_correction_deg == 0) return;
+  sensors::correct_elevation(points.x.data(), points.y.data(), points.z.data(), points.size(),
+                             profile.vertical_correction_deg * std::numbers::pi / 180);
+}
+
+struct ChunkSample {
+  RowSamples samples;
+  std::vector<std::uint32_t> first_of_cube;  // indices of samples.surface
+};
+
+}  // namespace
+
+std::array<std::size_t, lidar::kFeatureClasses> SweepSample::class_counts() const {
+  std::array<std::size_t, lidar::kFeatureClasses> counts{};
+  const auto count = [&](lidar::FeatureClass c) -> std::size_t& {
+    return counts[static_cast<std::size_t>(c)];
+  };
+  const auto planar_in_surface = static_cast<std::size_t>(
+      std::count(surface_is_planar.begin(), surface_is_planar.end(), std::uint8_t{1}));
+  count(lidar::FeatureClass::kSharp) = edges.size();
+  count(lidar::FeatureClass::kFlat) = planar.size();
+  count(lidar::FeatureClass::kLessFlat) = planar_in_surface - planar.size();
+  count(lidar::FeatureClass::kNone) = surface.size() - planar_in_surface;
+  return counts;
+}
+
+std::vector<std::uint32_t> first_of_each_cube(const SweepPoints& points,
+                                              const std::vector<std::uint8_t>& mark,
+                                              double cube_m) {
+  const auto per_m = static_cast<float>(1 / cube_m);
+  PointHash seen(points.size());
+  std::vector<std::uint32_t> first;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (mark[i] == 0) continue;
+    const std::uint32_t key =
+        PointHash::key(points.x[i] * per_m, points.y[i] * per_m, points.z[i] * per_m);
+    if (seen.insert(key)) first.push_back(static_cast<std::uint32_t>(i));
+  }
+  return first;
+}
+
+SweepSample sample_sweep(const sensors::LidarScan& scan, const sensors::LidarProfile& profile,
+                         const SamplingOptions& options, parallel::Workers& workers) {
+  lidar::Stopwatch watch;
+  SweepSample sample;
+  sample.stamp = scan.stamp;
+  sample.points = scan.size();
+  const SweepRows rows(scan, profile);
+  sample.dropped = rows.dropped();
+  sample.from_range_image = rows.from_range_image();
+  watch.lap(sample.organise_ms);
+
+  const sensors::PointClock clock(scan, profile);
+  sample.timed = clock.knows();
+  const Seam seam = seam_of(clock, profile);
+  SamplingOptions limited = options;
+  limited.max_range_m = std::min(options.max_range_m, profile.max_range_m);
+  limited.edge_max_range_m = std::min(options.edge_max_range_m, profile.max_range_m);
+  const auto nearest = static_cast<float>(profile.min_range_m);
+  const auto pole_depth = static_cast<float>(profile.pole_depth);
+  const std::vector<std::size_t> order = bit_reversed_order(rows.count());
+  std::vector<ChunkSample> chunks((order.size() + kRowsInChunk - 1) / kRowsInChunk);
+  workers.run(chunks.size(), [&](std::size_t c) {
+    ChunkSample& chunk = chunks[c];
+    chunk.samples.reserve(kExpected);
+    std::vector<std::uint8_t> breaks;
+    const std::size_t end = std::min(order.size(), (c + 1) * kRowsInChunk);
+    for (std::size_t k = c * kRowsInChunk; k < end; ++k) {
+      const Row row = rows.row(order[k]);
+      if (row.size < kLeastRow) continue;
+      find_breaks(row, limited, seam, breaks);
+      sample_surfaces(row, breaks, limited, nearest, chunk.samples);
+      sample_edges(row, breaks, limited, nearest, pole_depth, chunk.samples);
+    }
+    for (SweepPoints* points : {&chunk.samples.surface, &chunk.samples.edges}) {
+      correct(profile, *points);
+      set_times(clock, profile, *points);
+    }
+    chunk.first_of_cube =
+        first_of_each_cube(chunk.samples.surface, chunk.samples.planar, limited.thinning_m);
+  });
+
+  // A point that is not the first of its cube within its chunk is not the first of all.
+  SweepPoints candidates;
+  for (const ChunkSample& chunk : chunks) {
+    sample.surface.append(chunk.samples.surface);
+    sample.edges.append(chunk.samples.edges);
+    sample.surface_is_planar.insert(sample.surface_is_planar.end(), chunk.samples.planar.begin(),
+                                    chunk.samples.planar.end());
+    for (const std::uint32_t i : chunk.first_of_cube) candidates.append(chunk.samples.surface, i);
+  }
+  const std::vector<std::uint8_t> all(candidates.size(), 1);
+  for (const std::uint32_t i : first_of_each_cube(candidates, all, limited.thinning_m)) {
+    sample.planar.append(candidates, i);
+  }
+  watch.lap(sample.features_ms);
+  return sample;
+}
+
+}  // namespace traverse::voxel_map

@@ -1,0 +1,138 @@
+#include "traverse/voxel_map/voxel_map_odometry.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "traverse/lidar/deskew.hpp"
+#include "traverse/voxel_map/matched_points.hpp"
+#include "traverse/voxel_map/row_factor_kinds.hpp"
+#include "traverse/voxel_map/used_points.hpp"
+#include "traverse/sensors/sweep_timing.hpp"
+
+#include "traverse/lidar/stopwatch.hpp"
+#include "traverse/parallel/workers.hpp"
+
+namespace traverse::voxel_map {
+
+namespace {
+
+constexpr Effort kFirstFrames{4, 2};
+
+}  // namespace
+
+void bind(config::Binder& b, VoxelMapOdometryOptions& o) {
+  using config::Range;
+  b.flag("deskew", o.deskew, "undo the motion within a sweep, unless the recording did");
+  b.group("sampling", "points kept of a scan", [&](config::Binder& g) { bind(g, o.sampling); });
+  b.group("map", "the local map of planes and lines", [&](config::Binder& g) { bind(g, o.map); });
+  b.group("alignment", "the pose", [&](config::Binder& g) { bind(g, o.alignment); });
+  b.group("start", "search for the initial speed", [&](config::Binder& g) { bind(g, o.start); });
+  b.integer("first_frames", o.first_frames, Range::between(0, 1000),
+            "registered with a wider gate and more rounds");
+}
+
+VoxelMapOdometry::VoxelMapOdometry(const VoxelMapOdometryOptions& options,
+                                   const sensors::LidarProfile& profile, bool motion_compensated)
+    : options_(options),
+      profile_(profile),
+      deskew_note_(lidar::deskew_note(options.deskew, profile, motion_compensated)),
+      workers_(std::make_shared<parallel::Workers>(options.threads)),
+      map_(options.map),
+      held_back_(options.start.scans) {}
+
+std::vector<lidar::Frame> VoxelMapOdometry::process(const sensors::LidarScan& scan) {
+  return advance_all(held_back_.add(sample_sweep(scan, profile_, options_.sampling, *workers_)));
+}
+
+std::vector<lidar::Frame> VoxelMapOdometry::finish() { return advance_all(held_back_.release()); }
+
+lidar::CorrectedScan VoxelMapOdometry::used_scan(const sensors::LidarScan& scan,
+                                          const geometry::Twist& velocity,
+                                          bool with_classes) const {
+  const geometry::Twist motion = deskew_note_ == "on" ? velocity : geometry::Twist::Zero();
+  lidar::CorrectedScan used = used_points(scan, profile_, motion);
+  if (with_classes) {
+    parallel::Workers alone(1);
+    used.classes = classes_of(used, sample_sweep(scan, profile_, options_.sampling, alone));
+  }
+  return used;
+}
+
+std::vector<Eigen::Vector3d> VoxelMapOdometry::local_map() const {
+  std::vector<Eigen::Vector3d> points = map_.planes().points();
+  const std::vector<Eigen::Vector3d> on_lines = map_.lines().points();
+  points.insert(points.end(), on_lines.begin(), on_lines.end());
+  return points;
+}
+
+std::vector<lidar::MatchedPoint> VoxelMapOdometry::matches() const {
+  const bool deskew = deskew_note_ == "on";
+  return matched_points(matches_, T_map_last_, deskew ? velocity_ : geometry::Twist::Zero());
+}
+
+std::vector<optimization::FactorUse> VoxelMapOdometry::factors() const { return row_factors(); }
+
+std::vector<lidar::Frame> VoxelMapOdometry::advance_all(const std::vector<SweepSample>& scans) {
+  lidar::Stopwatch watch;
+  double start_ms = 0;
+  if (frames_ == 0 && scans.size() >= 2) {
+    std::vector<double> intervals_s;
+    for (std::size_t i = 1; i < scans.size(); ++i) {
+      intervals_s.push_back(interval(scans[i - 1].stamp, scans[i].stamp));
+    }
+    velocity_ = find_initial_velocity(scans, intervals_s, deskew_note_ == "on", options_.map,
+                                      options_.alignment, options_.start, *workers_);
+    watch.lap(start_ms);
+  }
+  std::vector<lidar::Frame> frames;
+  for (const SweepSample& scan : scans) frames.push_back(advance(scan, std::exchange(start_ms, 0)));
+  return frames;
+}
+
+double VoxelMapOdometry::interval(geometry::Stamp earlier, geometry::Stamp later) const {
+  const double seconds = sensors::scan_interval(earlier, later, profile_);
+  return seconds > 0 ? seconds : profile_.sweep_s;
+}
+
+lidar::Frame VoxelMapOdometry::advance(const SweepSample& sample, double start_ms) {
+  lidar::Frame frame;
+  frame.index = frames_;
+  frame.stamp = sample.stamp;
+  frame.points = sample.points;
+  frame.dropped = sample.dropped;
+  frame.class_counts = sample.class_counts();
+  frame.ms.start = start_ms;
+  frame.ms.organise = sample.organise_ms;
+  frame.ms.features = sample.features_ms;
+
+  const bool deskew = deskew_note_ == "on";
+  if (frames_ > 0) {
+    const double dt = interval(last_stamp_, sample.stamp);
+    const geometry::Pose3 predicted = T_map_last_ * geometry::exp_se3(dt * velocity_);
+    const Effort effort =
+        frames_ < static_cast<std::size_t>(options_.first_frames) ? kFirstFrames : Effort{};
+    const Alignment alignment = align(sample, map_, {T_map_last_, dt, deskew}, predicted,
+                                      options_.alignment, effort, *workers_, matches_, frame.ms);
+    frame.T_map_lidar = alignment.T_map_lidar.orthonormalised();
+    frame.health = alignment.health;
+    if (frame.health.registered) {
+      velocity_ = geometry::log_se3(T_map_last_.inverse() * frame.T_map_lidar) / dt;
+    }
+  }
+  frame.velocity = velocity_;
+  // A pose that is only predicted does not shape the map, unless there is no map yet.
+  const auto least = static_cast<std::size_t>(options_.alignment.least_matches);
+  if (frame.health.registered || frames_ == 0 || map_.size() < least) {
+    lidar::Stopwatch watch;
+    map_.insert(sample, frame.T_map_lidar, deskew ? velocity_ : geometry::Twist::Zero(), *workers_);
+    watch.lap(frame.ms.insert);
+  }
+  frame.map_points = map_.size();
+
+  T_map_last_ = frame.T_map_lidar;
+  last_stamp_ = frame.stamp;
+  ++frames_;
+  return frame;
+}
+
+}  // namespace traverse::voxel_map
