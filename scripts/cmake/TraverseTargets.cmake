@@ -115,6 +115,10 @@ function(traverse_test name)
   endif()
   add_executable(${name}_test ${ARG_SOURCES})
   target_include_directories(${name}_test PRIVATE ${CMAKE_SOURCE_DIR}/tests)
+  if(IS_DIRECTORY ${CMAKE_SOURCE_DIR}/libs/${name}/src)
+    # What a library keeps to itself its own tests see, and no others.
+    target_include_directories(${name}_test PRIVATE ${CMAKE_SOURCE_DIR}/libs/${name}/src)
+  endif()
   target_compile_definitions(${name}_test PRIVATE
     TRAVERSE_SOURCE_DIR="${CMAKE_SOURCE_DIR}" TRAVERSE_SHARE_DIR="${CMAKE_SOURCE_DIR}/share")
   target_link_libraries(${name}_test

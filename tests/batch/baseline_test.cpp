@@ -1,4 +1,4 @@
-#include "traverse/batch/baseline.hpp"
+#include "baseline.hpp"
 
 #include <cmath>
 

@@ -9,12 +9,12 @@
 #include <gtest/gtest.h>
 
 #include "traverse/batch/local_executor.hpp"
-#include "traverse/batch/lock.hpp"
 #include "traverse/batch/results.hpp"
 #include "traverse/batch/status.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/text_file.hpp"
 
+#include "lock.hpp"
 #include "temporary_folder.hpp"
 
 namespace traverse::batch {

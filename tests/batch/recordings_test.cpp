@@ -1,4 +1,4 @@
-#include "traverse/batch/recordings.hpp"
+#include "recordings.hpp"
 
 #include <filesystem>
 #include <string>
@@ -7,9 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "traverse/batch/program_id.hpp"
-
 #include "batch/made_plan.hpp"
+#include "program_id.hpp"
 
 namespace traverse::batch {
 namespace {

@@ -1,4 +1,4 @@
-#include "traverse/batch/report.hpp"
+#include "report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

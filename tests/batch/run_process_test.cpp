@@ -1,4 +1,4 @@
-#include "traverse/batch/run_process.hpp"
+#include "run_process.hpp"
 
 #include <atomic>
 #include <chrono>

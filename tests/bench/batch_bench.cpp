@@ -17,9 +17,9 @@
 
 #include "traverse/batch/local_executor.hpp"
 #include "traverse/batch/metric.hpp"
-#include "traverse/batch/report.hpp"
 #include "traverse/batch/results.hpp"
 
+#include "report.hpp"
 #include "temporary_folder.hpp"
 
 namespace traverse::batch {

@@ -1,4 +1,4 @@
-#include "traverse/loam/curvature.hpp"
+#include "curvature.hpp"
 
 #include <cmath>
 

@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "traverse/loam/curvature.hpp"
-
+#include "curvature.hpp"
 #include "loam/made_lines.hpp"
 
 namespace traverse::loam {
@@ -14,7 +13,9 @@ namespace {
 
 constexpr double kSpacing = 0.004;  // rad between points of a line
 
-bool is_edge(lidar::FeatureClass c) { return c == lidar::FeatureClass::kSharp || c == lidar::FeatureClass::kLessSharp; }
+bool is_edge(lidar::FeatureClass c) {
+  return c == lidar::FeatureClass::kSharp || c == lidar::FeatureClass::kLessSharp;
+}
 
 /// A line of 201 points that looks along +x at a corner of two walls in its middle.
 lidar::ScanLines corner() {
@@ -63,8 +64,9 @@ TEST(Features, EverySectorCoversItsPointsToTheLast) {
     FeatureOptions options;
     options.sectors = sectors;
     const Features features = extract_features(lines, options);
-    EXPECT_EQ(features.count(lidar::FeatureClass::kFlat) + features.count(lidar::FeatureClass::kLessFlat),
-              127 - 2 * kCurvatureReach)
+    EXPECT_EQ(
+        features.count(lidar::FeatureClass::kFlat) + features.count(lidar::FeatureClass::kLessFlat),
+        127 - 2 * kCurvatureReach)
         << sectors;
   }
 }
@@ -95,7 +97,8 @@ TEST(Features, AGrazedSurfaceGivesNoFeature) {
   FeatureOptions options;
   options.break_m = 100;  // no depth jumps: only the grazing rule is under test
   const Features features = extract_features(lines, options);
-  for (std::size_t i = 5; i < 15; ++i) EXPECT_EQ(features.classes[i], lidar::FeatureClass::kNone) << i;
+  for (std::size_t i = 5; i < 15; ++i)
+    EXPECT_EQ(features.classes[i], lidar::FeatureClass::kNone) << i;
 }
 
 TEST(Features, ShortAndEmptyLinesHaveNone) {

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "traverse/loam/factor_bench.hpp"
-#include "traverse/loam/point_motion.hpp"
 
 #include "lidar/simulated_drive.hpp"
+#include "point_motion.hpp"
 
 namespace traverse::loam {
 namespace {

@@ -1,11 +1,10 @@
-#include "traverse/loam/match_observability.hpp"
+#include "match_observability.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include "traverse/loam/point_motion.hpp"
-
 #include "geometry/random_motion.hpp"
+#include "point_motion.hpp"
 
 namespace traverse::loam {
 namespace {

@@ -1,4 +1,4 @@
-#include "traverse/loam/point_motion.hpp"
+#include "point_motion.hpp"
 
 #include <gtest/gtest.h>
 

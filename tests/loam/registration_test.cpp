@@ -2,10 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "traverse/loam/point_motion.hpp"
-
 #include "geometry/random_motion.hpp"
 #include "loam/room.hpp"
+#include "point_motion.hpp"
 
 namespace traverse::loam {
 namespace {

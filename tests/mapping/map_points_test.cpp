@@ -1,4 +1,4 @@
-#include "traverse/mapping/map_points.hpp"
+#include "map_points.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "traverse/pose_graph/residuals.hpp"
+#include "residuals.hpp"
 
 #include <cmath>
 

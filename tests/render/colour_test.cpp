@@ -6,8 +6,9 @@
 
 #include "traverse/render/colour_map.hpp"
 #include "traverse/render/palette.hpp"
-#include "traverse/render/plot/colour_scale.hpp"
 #include "traverse/render/theme.hpp"
+
+#include "plot/colour_scale.hpp"
 
 namespace traverse::render {
 namespace {

@@ -1,4 +1,4 @@
-#include "traverse/render/plot/decimation.hpp"
+#include "plot/decimation.hpp"
 
 #include <algorithm>
 #include <cmath>

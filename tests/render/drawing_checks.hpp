@@ -9,7 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "traverse/render/drawing.hpp"
-#include "traverse/render/text_measure.hpp"
+
+#include "text_measure.hpp"
 
 namespace traverse::render {
 

@@ -1,4 +1,4 @@
-#include "traverse/render/plot/number_text.hpp"
+#include "plot/number_text.hpp"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "traverse/render/text_measure.hpp"
+#include "text_measure.hpp"
 
 #include <cstdlib>
 
@@ -7,8 +7,8 @@
 
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
-#include "traverse/render/plot/wrapped.hpp"
 
+#include "plot/wrapped.hpp"
 #include "temporary_folder.hpp"
 
 namespace traverse::render {

@@ -1,4 +1,4 @@
-#include "traverse/render/plot/ticks.hpp"
+#include "plot/ticks.hpp"
 
 #include <cmath>
 #include <limits>

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "traverse/replay/path_estimator.hpp"
+#include "path_estimator.hpp"
 
 namespace traverse::replay {
 namespace {

@@ -1,4 +1,4 @@
-#include "traverse/replay/path_estimator.hpp"
+#include "path_estimator.hpp"
 
 #include <gtest/gtest.h>
 

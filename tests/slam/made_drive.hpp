@@ -4,10 +4,10 @@
 
 #include "traverse/geometry/so3.hpp"
 #include "traverse/lidar/frame.hpp"
-#include "traverse/voxel_map/used_points.hpp"
 #include "traverse/simulation/scanner.hpp"
 #include "traverse/simulation/worlds.hpp"
 #include "traverse/slam/keyframe_maker.hpp"
+#include "traverse/voxel_map/used_points.hpp"
 
 namespace traverse::testing {
 

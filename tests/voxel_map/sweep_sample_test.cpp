@@ -8,11 +8,11 @@
 
 #include <gtest/gtest.h>
 
-#include "traverse/voxel_map/used_points.hpp"
+#include "traverse/parallel/workers.hpp"
 #include "traverse/sensors/sweep_timing.hpp"
+#include "traverse/voxel_map/used_points.hpp"
 
 #include "lidar/simulated_drive.hpp"
-#include "traverse/parallel/workers.hpp"
 
 namespace traverse::voxel_map {
 namespace {

@@ -1,14 +1,13 @@
-#include "traverse/voxel_map/swept_point.hpp"
+#include "swept_point.hpp"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
 #include "traverse/geometry/so3.hpp"
-#include "traverse/voxel_map/scan_objective.hpp"
 #include "traverse/optimization/random_states.hpp"
-
 #include "traverse/parallel/workers.hpp"
+#include "traverse/voxel_map/scan_objective.hpp"
 
 namespace traverse::voxel_map {
 namespace {
@@ -59,8 +58,8 @@ TEST(SweptPoint, DerivativeMatchesDifferences) {
 
 /// The Jacobian of one plane row as evaluate() sees it: g / (w r), with a kernel so wide that it
 /// does not weigh.
-lidar::Vector6 row_of_evaluate(const SweptPoint& point, double interval_s, const Eigen::Vector3d& normal,
-                        const geometry::Pose3& pose) {
+lidar::Vector6 row_of_evaluate(const SweptPoint& point, double interval_s,
+                               const Eigen::Vector3d& normal, const geometry::Pose3& pose) {
   const double residual = 1;
   ScanMatches matches;
   matches.origin_map.setZero();

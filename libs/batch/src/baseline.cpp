@@ -1,4 +1,4 @@
-#include "traverse/batch/baseline.hpp"
+#include "baseline.hpp"
 
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>

@@ -7,16 +7,17 @@
 
 #include <fmt/format.h>
 
-#include "traverse/batch/baseline.hpp"
 #include "traverse/batch/execute.hpp"
 #include "traverse/batch/journal.hpp"
-#include "traverse/batch/lock.hpp"
-#include "traverse/batch/program_id.hpp"
-#include "traverse/batch/recordings.hpp"
-#include "traverse/batch/report.hpp"
 #include "traverse/batch/slurm.hpp"
-#include "traverse/batch/summary.hpp"
 #include "traverse/files/atomic_file.hpp"
+
+#include "baseline.hpp"
+#include "lock.hpp"
+#include "program_id.hpp"
+#include "recordings.hpp"
+#include "report.hpp"
+#include "summary.hpp"
 
 namespace traverse::batch {
 

@@ -8,8 +8,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "traverse/batch/run_process.hpp"
 #include "traverse/files/text_file.hpp"
+
+#include "run_process.hpp"
 
 namespace traverse::batch {
 

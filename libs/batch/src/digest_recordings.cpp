@@ -7,10 +7,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "traverse/batch/recordings.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/digest.hpp"
 #include "traverse/files/text_file.hpp"
+
+#include "recordings.hpp"
 
 namespace traverse::batch {
 

@@ -14,7 +14,6 @@
 #include <nlohmann/json.hpp>
 
 #include "traverse/batch/metric.hpp"
-#include "traverse/batch/run_process.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/digest.hpp"
 #include "traverse/files/input_error.hpp"
@@ -23,6 +22,7 @@
 #include "traverse/pipeline/run_folder.hpp"
 
 #include "host_name.hpp"
+#include "run_process.hpp"
 
 namespace traverse::batch {
 

@@ -5,7 +5,8 @@
 #include <fmt/ranges.h>
 
 #include "traverse/batch/metric.hpp"
-#include "traverse/batch/summary.hpp"
+
+#include "summary.hpp"
 
 namespace traverse::batch {
 

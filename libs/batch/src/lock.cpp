@@ -1,4 +1,4 @@
-#include "traverse/batch/lock.hpp"
+#include "lock.hpp"
 
 #include <cerrno>
 #include <cstring>

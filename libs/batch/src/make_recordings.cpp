@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "traverse/batch/recordings.hpp"
-#include "traverse/batch/run_process.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/digest.hpp"
 #include "traverse/files/text_file.hpp"
 
 #include "plan_error.hpp"
+#include "recordings.hpp"
+#include "run_process.hpp"
 
 namespace traverse::batch {
 

@@ -1,4 +1,4 @@
-#include "traverse/batch/program_id.hpp"
+#include "program_id.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "traverse/batch/report.hpp"
+#include "report.hpp"
 
 #include <algorithm>
 #include <kainjow/mustache.hpp>

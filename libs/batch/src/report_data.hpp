@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "traverse/batch/report.hpp"
+#include "report.hpp"
 
 namespace traverse::batch {
 

@@ -9,11 +9,11 @@
 
 #include "traverse/batch/job.hpp"
 #include "traverse/batch/journal.hpp"
-#include "traverse/batch/lock.hpp"
 #include "traverse/files/numbers.hpp"
 #include "traverse/files/text_file.hpp"
 
 #include "host_name.hpp"
+#include "lock.hpp"
 
 namespace traverse::batch {
 

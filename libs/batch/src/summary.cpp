@@ -1,4 +1,4 @@
-#include "traverse/batch/summary.hpp"
+#include "summary.hpp"
 
 #include <algorithm>
 #include <limits>

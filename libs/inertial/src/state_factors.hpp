@@ -8,8 +8,9 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
-#include "traverse/inertial/factor_type.hpp"
 #include "traverse/inertial/residuals.hpp"
+
+#include "factor_type.hpp"
 
 namespace traverse::inertial {
 

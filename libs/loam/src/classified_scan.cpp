@@ -1,4 +1,4 @@
-#include "traverse/loam/classified_scan.hpp"
+#include "classified_scan.hpp"
 
 #include <utility>
 #include <vector>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "traverse/loam/curvature.hpp"
+#include "curvature.hpp"
 
 namespace traverse::loam {
 

@@ -1,9 +1,9 @@
-#include "traverse/loam/match_observability.hpp"
+#include "match_observability.hpp"
 
 #include <algorithm>
 #include <vector>
 
-#include "traverse/loam/point_motion.hpp"
+#include "point_motion.hpp"
 
 namespace traverse::loam {
 

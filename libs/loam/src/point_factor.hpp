@@ -4,8 +4,9 @@
 #include <Eigen/Geometry>
 #include <ceres/sized_cost_function.h>
 
-#include "traverse/loam/point_motion.hpp"
 #include "traverse/optimization/rotation_manifold.hpp"
+
+#include "point_motion.hpp"
 
 namespace traverse::loam {
 

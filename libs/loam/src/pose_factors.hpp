@@ -6,9 +6,9 @@
 #include <ceres/cost_function.h>
 
 #include "traverse/loam/association.hpp"
-#include "traverse/loam/point_motion.hpp"
 #include "traverse/loam/registration.hpp"
 
+#include "point_motion.hpp"
 #include "point_residuals.hpp"
 
 namespace traverse::loam {

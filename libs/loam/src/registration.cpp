@@ -9,10 +9,10 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
-#include "traverse/loam/match_observability.hpp"
-#include "traverse/loam/point_motion.hpp"
 #include "traverse/optimization/rotation_manifold.hpp"
 
+#include "match_observability.hpp"
+#include "point_motion.hpp"
 #include "pose_factors.hpp"
 
 namespace traverse::loam {

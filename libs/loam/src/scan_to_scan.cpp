@@ -6,8 +6,9 @@
 
 #include "traverse/lidar/deskew.hpp"
 #include "traverse/lidar/stopwatch.hpp"
-#include "traverse/loam/point_motion.hpp"
 #include "traverse/parallel/workers.hpp"
+
+#include "point_motion.hpp"
 
 namespace traverse::loam {
 

@@ -6,10 +6,10 @@
 
 #include "traverse/lidar/deskew.hpp"
 #include "traverse/lidar/stopwatch.hpp"
-#include "traverse/loam/classified_scan.hpp"
 #include "traverse/loam/factor_kinds.hpp"
 #include "traverse/sensors/sweep_timing.hpp"
 
+#include "classified_scan.hpp"
 #include "matched_points.hpp"
 
 namespace traverse::loam {

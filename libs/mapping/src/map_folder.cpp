@@ -2,7 +2,8 @@
 
 #include "traverse/mapping/keyframe_map.hpp"
 #include "traverse/mapping/map_origin.hpp"
-#include "traverse/mapping/map_points.hpp"
+
+#include "map_points.hpp"
 
 namespace traverse::mapping {
 

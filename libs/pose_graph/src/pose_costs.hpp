@@ -6,7 +6,8 @@
 
 #include "traverse/geometry/se3.hpp"
 #include "traverse/optimization/rotation_manifold.hpp"
-#include "traverse/pose_graph/residuals.hpp"
+
+#include "residuals.hpp"
 
 /// The residuals as Ceres' cost functions, in units of their standard deviation. A pose is two
 /// parameter blocks, a unit quaternion [x y z w] and a translation.

@@ -8,9 +8,8 @@
 #include <Eigen/Dense>
 #include <fmt/core.h>
 
-#include "traverse/pose_graph/residuals.hpp"
-
 #include "level_alignment.hpp"
+#include "residuals.hpp"
 #include "scaling_loss.hpp"
 #include "solve.hpp"
 

@@ -2,7 +2,8 @@
 #include <string>
 
 #include "traverse/files/input_error.hpp"
-#include "traverse/render/text_measure.hpp"
+
+#include "text_measure.hpp"
 
 namespace traverse::render {
 

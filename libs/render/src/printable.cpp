@@ -1,7 +1,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "traverse/render/text_measure.hpp"
+#include "text_measure.hpp"
 
 namespace traverse::render {
 

@@ -1,4 +1,4 @@
-#include "traverse/render/text_measure.hpp"
+#include "text_measure.hpp"
 
 #include <vector>
 

@@ -5,7 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "traverse/render/text_measure.hpp"
+#include "text_measure.hpp"
 
 namespace traverse::render {
 

@@ -9,9 +9,9 @@
 #include <stdexcept>
 
 #include "traverse/render/renderer.hpp"
-#include "traverse/render/text_measure.hpp"
 
 #include "polyline_pieces.hpp"
+#include "text_measure.hpp"
 
 namespace traverse::render {
 

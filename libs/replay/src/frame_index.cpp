@@ -11,7 +11,8 @@
 #include "traverse/files/digest.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/text_file.hpp"
-#include "traverse/replay/frame_sensor.hpp"
+
+#include "frame_sensor.hpp"
 
 namespace traverse::replay {
 

@@ -1,4 +1,4 @@
-#include "traverse/replay/frame_sensor.hpp"
+#include "frame_sensor.hpp"
 
 namespace traverse::replay {
 

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "traverse/replay/recording_index.hpp"
-#include "traverse/replay/saved_estimate.hpp"
+#include "recording_index.hpp"
+#include "saved_estimate.hpp"
 
 namespace traverse::replay {
 

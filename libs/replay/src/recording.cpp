@@ -4,8 +4,9 @@
 
 #include "traverse/dataset/trajectory_files.hpp"
 #include "traverse/files/input_error.hpp"
-#include "traverse/replay/frame_sensor.hpp"
-#include "traverse/replay/path_estimator.hpp"
+
+#include "frame_sensor.hpp"
+#include "path_estimator.hpp"
 
 namespace traverse::replay {
 

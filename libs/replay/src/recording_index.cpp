@@ -1,4 +1,4 @@
-#include "traverse/replay/recording_index.hpp"
+#include "recording_index.hpp"
 
 namespace traverse::replay {
 

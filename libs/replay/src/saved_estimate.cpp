@@ -1,4 +1,4 @@
-#include "traverse/replay/saved_estimate.hpp"
+#include "saved_estimate.hpp"
 
 #include <utility>
 #include <vector>

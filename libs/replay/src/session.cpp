@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "traverse/replay/frame_sensor.hpp"
+#include "frame_sensor.hpp"
 
 namespace traverse::replay {
 

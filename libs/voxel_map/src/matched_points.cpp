@@ -1,4 +1,4 @@
-#include "traverse/voxel_map/matched_points.hpp"
+#include "matched_points.hpp"
 
 #include <cmath>
 
@@ -27,8 +27,8 @@ Vector3d point_in_map(const PlaneRows& rows, std::size_t i, const SweepMotion& m
 }  // namespace
 
 std::vector<lidar::MatchedPoint> matched_points(const ScanMatches& matches,
-                                         const geometry::Pose3& T_map_lidar,
-                                         const geometry::Twist& velocity) {
+                                                const geometry::Pose3& T_map_lidar,
+                                                const geometry::Twist& velocity) {
   const SweepMotion motion(velocity);
   const auto distance = [&](const PlaneRows& rows, std::size_t i, const Vector3d& p_map) {
     return normal_of(rows, i).dot(Vector3d(p_map - matches.origin_map)) + rows.d[i];

@@ -1,4 +1,4 @@
-#include "traverse/voxel_map/swept_point.hpp"
+#include "swept_point.hpp"
 
 #include <Eigen/LU>
 

@@ -4,8 +4,9 @@
 #include <Eigen/Geometry>
 #include <ceres/sized_cost_function.h>
 
-#include "traverse/voxel_map/swept_point.hpp"
 #include "traverse/optimization/rotation_manifold.hpp"
+
+#include "swept_point.hpp"
 
 namespace traverse::voxel_map {
 

@@ -4,14 +4,15 @@
 #include <utility>
 
 #include "traverse/lidar/deskew.hpp"
-#include "traverse/voxel_map/sweep_rows.hpp"
 #include "traverse/sensors/sweep_timing.hpp"
 #include "traverse/sensors/vertical_correction.hpp"
+#include "traverse/voxel_map/sweep_rows.hpp"
 
 namespace traverse::voxel_map {
 
-lidar::CorrectedScan used_points(const sensors::LidarScan& scan, const sensors::LidarProfile& profile,
-                          const geometry::Twist& velocity) {
+lidar::CorrectedScan used_points(const sensors::LidarScan& scan,
+                                 const sensors::LidarProfile& profile,
+                                 const geometry::Twist& velocity) {
   const SweepRows rows(scan, profile);
   const sensors::PointClock clock(scan, profile);
   lidar::TimedPoints points;
@@ -35,11 +36,13 @@ lidar::CorrectedScan used_points(const sensors::LidarScan& scan, const sensors::
   return {std::move(points.x), std::move(points.y), std::move(points.z), std::move(source), {}};
 }
 
-std::vector<lidar::FeatureClass> classes_of(const lidar::CorrectedScan& used, const SweepSample& sample) {
+std::vector<lidar::FeatureClass> classes_of(const lidar::CorrectedScan& used,
+                                            const SweepSample& sample) {
   std::vector<lidar::FeatureClass> of_source(sample.points, lidar::FeatureClass::kNone);
   const auto mark = [&](std::uint32_t i, lidar::FeatureClass c) { of_source[i] = c; };
   for (std::size_t i = 0; i < sample.surface.size(); ++i) {
-    if (sample.surface_is_planar[i] != 0) mark(sample.surface.source[i], lidar::FeatureClass::kLessFlat);
+    if (sample.surface_is_planar[i] != 0)
+      mark(sample.surface.source[i], lidar::FeatureClass::kLessFlat);
   }
   for (const std::uint32_t i : sample.planar.source) mark(i, lidar::FeatureClass::kFlat);
   for (const std::uint32_t i : sample.edges.source) mark(i, lidar::FeatureClass::kSharp);

@@ -4,13 +4,13 @@
 #include <utility>
 
 #include "traverse/lidar/deskew.hpp"
-#include "traverse/voxel_map/matched_points.hpp"
-#include "traverse/voxel_map/row_factor_kinds.hpp"
-#include "traverse/voxel_map/used_points.hpp"
-#include "traverse/sensors/sweep_timing.hpp"
-
 #include "traverse/lidar/stopwatch.hpp"
 #include "traverse/parallel/workers.hpp"
+#include "traverse/sensors/sweep_timing.hpp"
+#include "traverse/voxel_map/row_factor_kinds.hpp"
+#include "traverse/voxel_map/used_points.hpp"
+
+#include "matched_points.hpp"
 
 namespace traverse::voxel_map {
 
@@ -47,8 +47,8 @@ std::vector<lidar::Frame> VoxelMapOdometry::process(const sensors::LidarScan& sc
 std::vector<lidar::Frame> VoxelMapOdometry::finish() { return advance_all(held_back_.release()); }
 
 lidar::CorrectedScan VoxelMapOdometry::used_scan(const sensors::LidarScan& scan,
-                                          const geometry::Twist& velocity,
-                                          bool with_classes) const {
+                                                 const geometry::Twist& velocity,
+                                                 bool with_classes) const {
   const geometry::Twist motion = deskew_note_ == "on" ? velocity : geometry::Twist::Zero();
   lidar::CorrectedScan used = used_points(scan, profile_, motion);
   if (with_classes) {

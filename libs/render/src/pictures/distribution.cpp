@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "traverse/render/palette.hpp"
-#include "traverse/render/plot/decimation.hpp"
-#include "traverse/render/plot/number_text.hpp"
-#include "traverse/render/plot/plot_area.hpp"
-#include "traverse/render/plot/title_block.hpp"
 
 #include "pictures/note.hpp"
+#include "plot/decimation.hpp"
+#include "plot/number_text.hpp"
+#include "plot/plot_area.hpp"
+#include "plot/title_block.hpp"
 
 namespace traverse::render {
 

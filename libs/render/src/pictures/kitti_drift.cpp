@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "traverse/render/palette.hpp"
-#include "traverse/render/plot/level_line.hpp"
-#include "traverse/render/plot/number_text.hpp"
-#include "traverse/render/plot/stacked_panels.hpp"
-#include "traverse/render/plot/title_block.hpp"
 
 #include "pictures/note.hpp"
+#include "plot/level_line.hpp"
+#include "plot/number_text.hpp"
+#include "plot/stacked_panels.hpp"
+#include "plot/title_block.hpp"
 
 namespace traverse::render {
 

@@ -3,13 +3,13 @@
 #include <vector>
 
 #include "traverse/render/palette.hpp"
-#include "traverse/render/plot/legend.hpp"
-#include "traverse/render/plot/occupancy.hpp"
-#include "traverse/render/plot/path.hpp"
-#include "traverse/render/plot/scale_bar.hpp"
-#include "traverse/render/plot/title_block.hpp"
 
 #include "pictures/trajectory_lines.hpp"
+#include "plot/legend.hpp"
+#include "plot/occupancy.hpp"
+#include "plot/path.hpp"
+#include "plot/scale_bar.hpp"
+#include "plot/title_block.hpp"
 
 namespace traverse::render {
 

@@ -9,13 +9,13 @@
 #include <Eigen/Eigenvalues>
 
 #include "traverse/render/palette.hpp"
-#include "traverse/render/plot/colour_bar.hpp"
-#include "traverse/render/plot/legend.hpp"
-#include "traverse/render/plot/number_text.hpp"
-#include "traverse/render/plot/title_block.hpp"
 
 #include "pictures/map_points.hpp"
 #include "pictures/note.hpp"
+#include "plot/colour_bar.hpp"
+#include "plot/legend.hpp"
+#include "plot/number_text.hpp"
+#include "plot/title_block.hpp"
 
 namespace traverse::render {
 

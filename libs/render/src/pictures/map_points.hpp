@@ -3,7 +3,8 @@
 #include <vector>
 
 #include "traverse/render/pictures/map_from_above.hpp"
-#include "traverse/render/plot/colour_scale.hpp"
+
+#include "plot/colour_scale.hpp"
 
 namespace traverse::render {
 

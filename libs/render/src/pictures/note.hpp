@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "traverse/render/plot/canvas.hpp"
+#include "plot/canvas.hpp"
 
 namespace traverse::render {
 

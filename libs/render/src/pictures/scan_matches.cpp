@@ -9,16 +9,16 @@
 #include <vector>
 
 #include "traverse/render/palette.hpp"
-#include "traverse/render/plot/legend.hpp"
-#include "traverse/render/plot/number_text.hpp"
-#include "traverse/render/plot/occupancy.hpp"
-#include "traverse/render/plot/path.hpp"
-#include "traverse/render/plot/scale_bar.hpp"
-#include "traverse/render/plot/ticks.hpp"
-#include "traverse/render/plot/title_block.hpp"
 
 #include "pictures/map_points.hpp"
 #include "pictures/note.hpp"
+#include "plot/legend.hpp"
+#include "plot/number_text.hpp"
+#include "plot/occupancy.hpp"
+#include "plot/path.hpp"
+#include "plot/scale_bar.hpp"
+#include "plot/ticks.hpp"
+#include "plot/title_block.hpp"
 
 namespace traverse::render {
 

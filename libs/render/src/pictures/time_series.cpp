@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "traverse/render/palette.hpp"
-#include "traverse/render/plot/decimation.hpp"
-#include "traverse/render/plot/legend.hpp"
-#include "traverse/render/plot/level_line.hpp"
-#include "traverse/render/plot/stacked_panels.hpp"
-#include "traverse/render/plot/title_block.hpp"
 
 #include "pictures/note.hpp"
+#include "plot/decimation.hpp"
+#include "plot/legend.hpp"
+#include "plot/level_line.hpp"
+#include "plot/stacked_panels.hpp"
+#include "plot/title_block.hpp"
 
 namespace traverse::render {
 

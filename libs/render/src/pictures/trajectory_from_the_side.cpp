@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "traverse/render/palette.hpp"
-#include "traverse/render/plot/decimation.hpp"
-#include "traverse/render/plot/legend.hpp"
-#include "traverse/render/plot/markers.hpp"
-#include "traverse/render/plot/number_text.hpp"
-#include "traverse/render/plot/path.hpp"
-#include "traverse/render/plot/title_block.hpp"
 
 #include "pictures/trajectory_lines.hpp"
+#include "plot/decimation.hpp"
+#include "plot/legend.hpp"
+#include "plot/markers.hpp"
+#include "plot/number_text.hpp"
+#include "plot/path.hpp"
+#include "plot/title_block.hpp"
 
 namespace traverse::render {
 

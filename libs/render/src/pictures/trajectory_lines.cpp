@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "traverse/render/plot/legend.hpp"
+#include "plot/legend.hpp"
 
 namespace traverse::render {
 

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "traverse/render/plot/canvas.hpp"
-#include "traverse/render/plot/path.hpp"
-#include "traverse/render/plot/plot_area.hpp"
+#include "plot/canvas.hpp"
+#include "plot/path.hpp"
+#include "plot/plot_area.hpp"
 
 namespace traverse::render {
 

@@ -1,4 +1,4 @@
-#include "traverse/render/plot/canvas.hpp"
+#include "plot/canvas.hpp"
 
 #include <algorithm>
 #include <cmath>

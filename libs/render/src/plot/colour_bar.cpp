@@ -1,12 +1,12 @@
-#include "traverse/render/plot/colour_bar.hpp"
+#include "plot/colour_bar.hpp"
 
 #include <algorithm>
 #include <utility>
 #include <vector>
 
-#include "traverse/render/plot/number_text.hpp"
-#include "traverse/render/plot/ticks.hpp"
-#include "traverse/render/plot/wrapped.hpp"
+#include "plot/number_text.hpp"
+#include "plot/ticks.hpp"
+#include "plot/wrapped.hpp"
 
 namespace traverse::render {
 

@@ -1,4 +1,4 @@
-#include "traverse/render/plot/colour_scale.hpp"
+#include "plot/colour_scale.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
-#include "traverse/render/plot/legend.hpp"
+#include "plot/legend.hpp"
 
 #include <algorithm>
 #include <numeric>
 
-#include "traverse/render/plot/markers.hpp"
+#include "plot/markers.hpp"
 
 namespace traverse::render {
 

@@ -1,9 +1,9 @@
-#include "traverse/render/plot/level_line.hpp"
+#include "plot/level_line.hpp"
 
 #include <cmath>
 #include <utility>
 
-#include "traverse/render/plot/legend.hpp"
+#include "plot/legend.hpp"
 
 namespace traverse::render {
 

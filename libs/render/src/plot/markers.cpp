@@ -1,4 +1,4 @@
-#include "traverse/render/plot/markers.hpp"
+#include "plot/markers.hpp"
 
 #include <utility>
 

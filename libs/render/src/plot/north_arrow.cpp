@@ -1,4 +1,4 @@
-#include "traverse/render/plot/north_arrow.hpp"
+#include "plot/north_arrow.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "traverse/render/plot/occupancy.hpp"
+#include "plot/occupancy.hpp"
 
 #include <algorithm>
 #include <cmath>

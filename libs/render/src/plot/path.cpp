@@ -1,10 +1,10 @@
-#include "traverse/render/plot/path.hpp"
+#include "plot/path.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "traverse/render/plot/markers.hpp"
+#include "plot/markers.hpp"
 
 namespace traverse::render {
 

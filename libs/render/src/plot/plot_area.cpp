@@ -1,4 +1,4 @@
-#include "traverse/render/plot/plot_area.hpp"
+#include "plot/plot_area.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "traverse/render/plot/scale_bar.hpp"
+#include "plot/scale_bar.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "traverse/render/plot/number_text.hpp"
+#include "plot/number_text.hpp"
 
 namespace traverse::render {
 

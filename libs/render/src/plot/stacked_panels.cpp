@@ -1,4 +1,4 @@
-#include "traverse/render/plot/stacked_panels.hpp"
+#include "plot/stacked_panels.hpp"
 
 #include <algorithm>
 

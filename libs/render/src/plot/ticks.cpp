@@ -1,9 +1,9 @@
-#include "traverse/render/plot/ticks.hpp"
+#include "plot/ticks.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "traverse/render/plot/number_text.hpp"
+#include "plot/number_text.hpp"
 
 namespace traverse::render {
 

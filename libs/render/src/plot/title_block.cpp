@@ -1,4 +1,4 @@
-#include "traverse/render/plot/title_block.hpp"
+#include "plot/title_block.hpp"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "traverse/render/plot/wrapped.hpp"
+#include "plot/wrapped.hpp"
 
 #include <utility>
 

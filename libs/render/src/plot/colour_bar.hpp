@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "traverse/render/plot/canvas.hpp"
-#include "traverse/render/plot/colour_scale.hpp"
+#include "plot/canvas.hpp"
+#include "plot/colour_scale.hpp"
 
 namespace traverse::render {
 

@@ -2,9 +2,9 @@
 
 #include <Eigen/Core>
 
-#include "traverse/render/plot/canvas.hpp"
-#include "traverse/render/plot/occupancy.hpp"
-#include "traverse/render/plot/plot_area.hpp"
+#include "plot/canvas.hpp"
+#include "plot/occupancy.hpp"
+#include "plot/plot_area.hpp"
 
 namespace traverse::render {
 

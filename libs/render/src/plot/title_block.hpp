@@ -3,7 +3,8 @@
 #include <string>
 
 #include "traverse/render/caption.hpp"
-#include "traverse/render/plot/canvas.hpp"
+
+#include "plot/canvas.hpp"
 
 namespace traverse::render {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "traverse/render/plot/plot_area.hpp"
+#include "plot/plot_area.hpp"
 
 namespace traverse::render {
 

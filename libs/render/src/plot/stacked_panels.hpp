@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "traverse/render/plot/plot_area.hpp"
+#include "plot/plot_area.hpp"
 
 namespace traverse::render {
 

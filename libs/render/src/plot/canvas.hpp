@@ -8,7 +8,8 @@
 
 #include "traverse/render/drawing.hpp"
 #include "traverse/render/style.hpp"
-#include "traverse/render/text_measure.hpp"
+
+#include "text_measure.hpp"
 
 namespace traverse::render {
 

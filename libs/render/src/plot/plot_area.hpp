@@ -2,9 +2,10 @@
 
 #include <string>
 
-#include "traverse/render/plot/canvas.hpp"
 #include "traverse/render/plot/range.hpp"
-#include "traverse/render/plot/ticks.hpp"
+
+#include "plot/canvas.hpp"
+#include "plot/ticks.hpp"
 
 namespace traverse::render {
 

@@ -5,7 +5,8 @@
 #include <Eigen/Core>
 
 #include "traverse/geometry/trajectory.hpp"
-#include "traverse/render/plot/plot_area.hpp"
+
+#include "plot/plot_area.hpp"
 
 namespace traverse::render {
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "traverse/render/text_measure.hpp"
+#include "text_measure.hpp"
 
 namespace traverse::render {
 

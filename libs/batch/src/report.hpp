@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "traverse/batch/baseline.hpp"
 #include "traverse/batch/plan.hpp"
 #include "traverse/batch/results.hpp"
-#include "traverse/batch/summary.hpp"
+
+#include "baseline.hpp"
+#include "summary.hpp"
 
 namespace traverse::batch {
 

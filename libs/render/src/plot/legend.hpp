@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "traverse/render/plot/canvas.hpp"
+#include "plot/canvas.hpp"
 
 namespace traverse::render {
 
