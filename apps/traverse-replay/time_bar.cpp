@@ -44,7 +44,7 @@ void TimeBar::refresh() {
     errors_.clear();
     registered_.clear();
   }
-  const auto& columns = console_.player().columns();
+  const std::vector<std::string> columns = console_.player().columns();
   const auto column = static_cast<std::size_t>(
       std::find(columns.begin(), columns.end(), "registered") - columns.begin());
   for (const replay::PastFrame& frame : console_.player().past(errors_.size())) {

@@ -30,7 +30,9 @@ target_compile_options(traverse_build_flags INTERFACE
   -Wall -Wextra -Wconversion -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Werror
   # GCC 12 sees overlaps in std::string operator+ (PR 105651) and, through Eigen's expression
   # templates, uninitialised values that are not there; both only in optimised builds.
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-maybe-uninitialized>)
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-maybe-uninitialized>
+  # Clang refuses what touches a member without the mutex that guards it (parallel/mutex.hpp).
+  $<$<CXX_COMPILER_ID:Clang>:-Wthread-safety>)
 if(TRAVERSE_SANITIZE)
   target_compile_options(traverse_build_flags INTERFACE
     -fsanitize=${TRAVERSE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)

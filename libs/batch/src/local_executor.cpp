@@ -1,16 +1,16 @@
 #include "traverse/batch/local_executor.hpp"
 
 #include <algorithm>
-#include <condition_variable>
 #include <deque>
 #include <exception>
 #include <fstream>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
 
 #include <fmt/format.h>
+
+#include "traverse/parallel/mutex.hpp"
 
 #include "plan_error.hpp"
 
@@ -40,7 +40,7 @@ class Queue {
 
   /// The next job for `slot`; nullptr when there is no more.
   const Job* take(std::size_t slot) {
-    const std::lock_guard lock(mutex_);
+    const parallel::Lock lock(mutex_);
     if (next_ == jobs_.size() || failure_) return nullptr;
     const Job& job = jobs_[next_++];
     running_[slot] = {&job, std::chrono::steady_clock::now()};
@@ -48,27 +48,30 @@ class Queue {
   }
 
   void put_back(std::size_t slot, std::optional<Completion> completion) {
-    const std::lock_guard lock(mutex_);
+    const parallel::Lock lock(mutex_);
     if (completion) done_.emplace_back(running_[slot].job, std::move(*completion));
     running_[slot].job = nullptr;
     changed_.notify_one();
   }
 
   void fail(std::exception_ptr failure) {
-    const std::lock_guard lock(mutex_);
+    const parallel::Lock lock(mutex_);
     if (!failure_) failure_ = std::move(failure);
   }
 
   void worker_ended() {
-    const std::lock_guard lock(mutex_);
+    const parallel::Lock lock(mutex_);
     --workers_;
     changed_.notify_one();
   }
 
   /// Waits a tick or until something changes. \returns whether workers are left.
   bool wait(std::deque<std::pair<const Job*, Completion>>& done, std::vector<RunningJob>& running) {
-    std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, kTick, [&] { return !done_.empty() || workers_ == 0; });
+    const parallel::Lock lock(mutex_);
+    const auto until = std::chrono::steady_clock::now() + kTick;
+    while (done_.empty() && workers_ > 0 &&
+           changed_.wait_until(mutex_, until) == std::cv_status::no_timeout) {
+    }
     done.swap(done_);
     running.clear();
     for (const RunningJob& job : running_) {
@@ -77,17 +80,20 @@ class Queue {
     return workers_ > 0;
   }
 
-  std::exception_ptr failure() const { return failure_; }
+  std::exception_ptr failure() const {
+    const parallel::Lock lock(mutex_);
+    return failure_;
+  }
 
  private:
   const std::vector<Job>& jobs_;
-  std::size_t next_ = 0;
-  std::vector<RunningJob> running_;
-  std::deque<std::pair<const Job*, Completion>> done_;
-  int workers_;
-  std::exception_ptr failure_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
+  mutable parallel::Mutex mutex_;
+  parallel::Condition changed_;
+  std::size_t next_ TRAVERSE_GUARDED_BY(mutex_) = 0;
+  std::vector<RunningJob> running_ TRAVERSE_GUARDED_BY(mutex_);
+  std::deque<std::pair<const Job*, Completion>> done_ TRAVERSE_GUARDED_BY(mutex_);
+  int workers_ TRAVERSE_GUARDED_BY(mutex_);
+  std::exception_ptr failure_ TRAVERSE_GUARDED_BY(mutex_);
 };
 
 }  // namespace

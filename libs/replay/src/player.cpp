@@ -51,7 +51,7 @@ Player::~Player() {
 }
 
 void Player::control(const std::function<void(Controls&)>& change) {
-  const std::lock_guard lock(mutex_);
+  const parallel::Lock lock(mutex_);
   const std::size_t wanted = controls_.wanted_in(timeline_);
   change(controls_);
   if (controls_.wanted_in(timeline_) != wanted) ahead_.reset();
@@ -59,7 +59,7 @@ void Player::control(const std::function<void(Controls&)>& change) {
 }
 
 bool Player::seek(const std::string& place) {
-  const std::lock_guard lock(mutex_);
+  const parallel::Lock lock(mutex_);
   const auto frame = parse_place(place, timeline_);
   if (!frame) return false;
   controls_.seek(*frame);
@@ -76,7 +76,7 @@ void Player::seek_again() {
 }
 
 void Player::do_later(std::function<void()> job) {
-  const std::lock_guard lock(mutex_);
+  const parallel::Lock lock(mutex_);
   jobs_.push_back(std::move(job));
   changed_.notify_all();
 }
@@ -86,7 +86,7 @@ void Player::restart(const pipeline::PresetRequest& request, std::size_t origin)
     try {
       begin(request, std::max(origin, recording_.first_frame()));
     } catch (const std::exception& error) {
-      const std::lock_guard lock(mutex_);  // the estimator there is goes on
+      const parallel::Lock lock(mutex_);  // the estimator there is goes on
       status_.message = fmt::format("not restarted: {}", error.what());
     }
   });
@@ -99,7 +99,7 @@ void Player::save(const std::filesystem::path& folder) {
 /// Makes the pipeline and forgets what the one before knew.
 void Player::begin(const pipeline::PresetRequest& request, std::size_t origin) {
   pipeline::Pipeline pipeline = recording_.make_pipeline(request, options_.threads);
-  const std::vector<std::string> columns = pipeline.estimator->columns();
+  std::vector<std::string> columns = pipeline.estimator->columns();
   if (session_) {
     session_->restart(std::move(pipeline.estimator), origin);
   } else {
@@ -107,11 +107,11 @@ void Player::begin(const pipeline::PresetRequest& request, std::size_t origin) {
                                          recording_.frame_sensor(), origin);
   }
   {
-    const std::lock_guard lock(map_mutex_);
+    const parallel::Lock lock(map_mutex_);
     map_ = empty_map(recording_, options_);
   }
-  const std::lock_guard lock(mutex_);
-  columns_ = columns;
+  const parallel::Lock lock(mutex_);
+  columns_ = std::move(columns);
   controls_.set_origin(origin);
   settings_ = std::move(pipeline.settings);
   past_.clear();
@@ -136,8 +136,8 @@ void Player::estimate() {
     } catch (const std::exception& error) {
       fail(error.what());
     }
-    std::unique_lock lock(mutex_);
-    if (is_idle && !stop_) changed_.wait_for(lock, kTick);
+    const parallel::Lock lock(mutex_);
+    if (is_idle && !stop_) changed_.wait_for(mutex_, kTick);
   }
 }
 
@@ -146,7 +146,7 @@ bool Player::work_once(double seconds) {
   std::function<void()> job;
   std::size_t target = 0;
   {
-    const std::lock_guard lock(mutex_);
+    const parallel::Lock lock(mutex_);
     if (!jobs_.empty()) {
       job = std::move(jobs_.front());
       jobs_.pop_front();
@@ -164,14 +164,14 @@ bool Player::work_once(double seconds) {
   }
   if (job) {
     job();
-    const std::lock_guard lock(mutex_);
+    const parallel::Lock lock(mutex_);
     has_job_ = false;
     return true;
   }
   const auto outcome = session_->go_to(
       target, [&](const SessionFrame& frame) { return frame_passed(frame, target); });
   if (outcome == Session::Outcome::kEnd) {
-    const std::lock_guard lock(mutex_);
+    const parallel::Lock lock(mutex_);
     timeline_.confirm_end(session_->frame() ? session_->frame()->number + 1 : 0);
     if (!session_->frame()) {
       status_.error = "the recording has no frame that the estimator can use";
@@ -187,7 +187,7 @@ bool Player::work_once(double seconds) {
 bool Player::frame_passed(const SessionFrame& frame, std::size_t target) {
   remember(frame);
   if (frame.number != target && Clock::now() - last_published_ >= kShowEvery) publish();
-  const std::lock_guard lock(mutex_);
+  const parallel::Lock lock(mutex_);
   status_.working_on = frame.number;
   const std::size_t wanted = controls_.advance(0, frame.number, timeline_);
   const bool still_wanted = controls_.playing() ? wanted >= target : wanted == target;
@@ -198,7 +198,7 @@ bool Player::frame_passed(const SessionFrame& frame, std::size_t target) {
 void Player::remember(const SessionFrame& frame) {
   bool is_new = false;
   {
-    const std::lock_guard lock(mutex_);
+    const parallel::Lock lock(mutex_);
     timeline_.confirm(frame.number, frame.pose.stamp);
     is_new = frame.number == controls_.origin() + past_.size();
     if (is_new) {
@@ -219,7 +219,7 @@ void Player::remember(const SessionFrame& frame) {
   }
   if (!is_new) return;
   const MapPoints points = points_in_map(frame, session_->estimator(), recording_.info().rig);
-  const std::lock_guard lock(map_mutex_);
+  const parallel::Lock lock(map_mutex_);
   map_.add_frame(points.points_map, points.intensity);
 }
 
@@ -232,7 +232,7 @@ void Player::publish() {
   shown->scan = scan_to_show(frame, session_->estimator(), recording_.info().rig);
   if (session_->estimator_is_at_frame()) shown->matches = session_->estimator().matches();
   shown->local_map = session_->estimator().local_map();
-  const std::lock_guard lock(mutex_);
+  const parallel::Lock lock(mutex_);
   shown->seconds = timeline_.seconds_to(frame.number);
   status_.checkpoints = session_->checkpoints().size();
   status_.checkpoint_bytes = session_->checkpoints().bytes();
@@ -240,7 +240,7 @@ void Player::publish() {
 }
 
 void Player::fail(const std::string& what) {
-  const std::lock_guard lock(mutex_);
+  const parallel::Lock lock(mutex_);
   controls_.pause();
   status_.error = what;
   status_.busy = false;
@@ -256,14 +256,14 @@ void Player::write(const std::filesystem::path& folder) {
   }
   std::string message;
   try {
-    const std::lock_guard lock(map_mutex_);
+    const parallel::Lock lock(map_mutex_);
     const std::size_t points = save_estimate(folder, estimate, map_, recording_.reference());
     message = fmt::format("saved {} poses and {} map points in {}", estimate.size(), points,
                           folder.string());
   } catch (const std::exception& error) {
     message = fmt::format("not saved: {}", error.what());
   }
-  const std::lock_guard lock(mutex_);
+  const parallel::Lock lock(mutex_);
   status_.message = message;
 }
 
@@ -271,25 +271,25 @@ void Player::build_index() {
   IndexObserver observer;
   observer.stop = &stop_;
   observer.frame = [&](geometry::Stamp stamp) {
-    const std::lock_guard lock(mutex_);
+    const parallel::Lock lock(mutex_);
     timeline_.add(stamp);
     seek_again();
   };
   observer.progress = [&](double share) {
-    const std::lock_guard lock(mutex_);
+    const parallel::Lock lock(mutex_);
     status_.index_share = share;
   };
   try {
     const auto index = index_of(recording_, options_.keep_index, observer);
     if (!index) return;
-    const std::lock_guard lock(mutex_);
+    const parallel::Lock lock(mutex_);
     for (const geometry::Stamp stamp : index->frames) timeline_.add(stamp);
     timeline_.set_complete();
     status_.index_share = 1;
     skipped_ = index->skipped;
     seek_again();
   } catch (const std::exception& error) {
-    const std::lock_guard lock(mutex_);
+    const parallel::Lock lock(mutex_);
     status_.message = fmt::format("no index: {}", error.what());
   }
 }

@@ -6,7 +6,7 @@
 namespace traverse::replay {
 
 PlayerStatus Player::status() const {
-  const std::lock_guard lock(mutex_);
+  const parallel::Lock lock(mutex_);
   PlayerStatus status = status_;
   status.playing = controls_.playing();
   status.unlimited = controls_.unlimited();
@@ -24,30 +24,35 @@ PlayerStatus Player::status() const {
 }
 
 Timeline Player::timeline() const {
-  const std::lock_guard lock(mutex_);
+  const parallel::Lock lock(mutex_);
   return timeline_;
 }
 
 std::vector<FrameIndex::Skipped> Player::skipped() const {
-  const std::lock_guard lock(mutex_);
+  const parallel::Lock lock(mutex_);
   return skipped_;
 }
 
 std::shared_ptr<const Shown> Player::shown() const {
-  const std::lock_guard lock(mutex_);
+  const parallel::Lock lock(mutex_);
   return shown_;
 }
 
 std::vector<PastFrame> Player::past(std::size_t from) const {
-  const std::lock_guard lock(mutex_);
+  const parallel::Lock lock(mutex_);
   if (from >= past_.size()) return {};
   return {past_.begin() + static_cast<std::ptrdiff_t>(from), past_.end()};
+}
+
+std::vector<std::string> Player::columns() const {
+  const parallel::Lock lock(mutex_);
+  return columns_;
 }
 
 std::vector<Eigen::Vector3d> Player::reference_in_map() const {
   std::optional<geometry::Pose3> T_map_reference;
   {
-    const std::lock_guard lock(mutex_);
+    const parallel::Lock lock(mutex_);
     T_map_reference = T_map_reference_;
   }
   std::vector<Eigen::Vector3d> points;
@@ -63,17 +68,17 @@ std::optional<ChosenPoints> Player::choose_map(const Eigen::Vector3f& focus,
   const auto on_show = shown();
   std::size_t origin = 0;
   {
-    const std::lock_guard lock(mutex_);
+    const parallel::Lock lock(mutex_);
     origin = controls_.origin();
   }
-  const std::unique_lock lock(map_mutex_, std::try_to_lock);
-  if (!lock) return std::nullopt;
+  if (!map_mutex_.try_lock()) return std::nullopt;
+  const parallel::Lock lock(map_mutex_, parallel::Adopt{});
   const std::size_t frames = on_show && on_show->frame >= origin ? on_show->frame - origin + 1 : 0;
   return map_.choose(frames, focus, budget);
 }
 
 std::vector<pipeline::ResolvedSetting> Player::settings() const {
-  const std::lock_guard lock(mutex_);
+  const parallel::Lock lock(mutex_);
   return settings_;
 }
 

@@ -52,7 +52,7 @@ render::Style FigureMaker::sized(render::Style style, double share) {
 }
 
 std::size_t FigureMaker::begin(Figure figure) {
-  const std::lock_guard lock(figures_mutex_);
+  const parallel::Lock lock(figures_mutex_);
   figures_.push_back(std::move(figure));
   return figures_.size() - 1;
 }
@@ -74,7 +74,7 @@ void FigureMaker::finish(const render::Drawing& drawing, const std::string& file
     // A page of many maps would be several times as large with them as PNG.
     std::string uri =
         lines ? data_uri("image/png", png) : data_uri("image/webp", image->encode_webp());
-    const std::lock_guard lock(figures_mutex_);
+    const parallel::Lock lock(figures_mutex_);
     (dark ? figures_[index].dark : figures_[index].light) = std::move(uri);
   });
 }
@@ -89,6 +89,7 @@ void FigureMaker::print(const render::Drawing& drawing, const std::string& file)
 
 std::vector<Figure> FigureMaker::take() {
   writers_.wait();
+  const parallel::Lock lock(figures_mutex_);
   return std::move(figures_);
 }
 

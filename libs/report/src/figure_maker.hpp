@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,6 +9,7 @@
 
 #include <tbb/task_group.h>
 
+#include "traverse/parallel/mutex.hpp"
 #include "traverse/render/caption.hpp"
 #include "traverse/render/drawing.hpp"
 #include "traverse/render/renderer.hpp"
@@ -68,8 +68,8 @@ class FigureMaker {
   render::Style light_;
   render::Style dark_;
   std::optional<render::Style> print_;  ///< large, for paper
-  std::vector<Figure> figures_;
-  std::mutex figures_mutex_;  ///< of figures_, which grows while others are filled
+  parallel::Mutex figures_mutex_;
+  std::vector<Figure> figures_ TRAVERSE_GUARDED_BY(figures_mutex_);  ///< grows while others fill
   tbb::task_group writers_;
 };
 

@@ -2,18 +2,17 @@
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstddef>
 #include <deque>
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "traverse/parallel/mutex.hpp"
 #include "traverse/pipeline/preset.hpp"
 #include "traverse/pipeline/registry.hpp"
 #include "traverse/replay/controls.hpp"
@@ -92,7 +91,8 @@ class Player {
 
   /// The frames from the `from`th known one on; empty when that is the newest.
   std::vector<PastFrame> past(std::size_t from) const;
-  const std::vector<std::string>& columns() const { return columns_; }
+  /// Names of the values of PoseFrame::record, by the present configuration.
+  std::vector<std::string> columns() const;
 
   /// The reference in the map frame of the present estimate; empty without one.
   std::vector<Eigen::Vector3d> reference_in_map() const;
@@ -112,7 +112,7 @@ class Player {
   void save(const std::filesystem::path& folder);
 
  private:
-  void seek_again();
+  void seek_again() TRAVERSE_REQUIRES(mutex_);
   void estimate();
   void build_index();
   bool work_once(double seconds);
@@ -126,26 +126,27 @@ class Player {
 
   Recording recording_;
   PlayerOptions options_;
-  std::vector<std::string> columns_;
   std::unique_ptr<Session> session_;  // of the estimating thread alone, like the next one
   std::chrono::steady_clock::time_point last_published_{};
 
-  mutable std::mutex mutex_;  // of all that follows, held for moments only
-  std::condition_variable changed_;
-  Controls controls_;
-  Timeline timeline_;
-  std::optional<std::string> ahead_;  // a place asked for that the index has not come to
-  std::vector<FrameIndex::Skipped> skipped_;
-  std::vector<pipeline::ResolvedSetting> settings_;
-  std::vector<PastFrame> past_;
-  std::optional<geometry::Pose3> T_map_reference_;
-  std::shared_ptr<const Shown> shown_;
-  std::deque<std::function<void()>> jobs_;
-  bool has_job_ = false;  // at work
-  PlayerStatus status_;
+  mutable parallel::Mutex mutex_;  // held for moments only
+  parallel::Condition changed_;
+  std::vector<std::string> columns_ TRAVERSE_GUARDED_BY(mutex_);
+  Controls controls_ TRAVERSE_GUARDED_BY(mutex_);
+  Timeline timeline_ TRAVERSE_GUARDED_BY(mutex_);
+  /// A place asked for that the index has not come to.
+  std::optional<std::string> ahead_ TRAVERSE_GUARDED_BY(mutex_);
+  std::vector<FrameIndex::Skipped> skipped_ TRAVERSE_GUARDED_BY(mutex_);
+  std::vector<pipeline::ResolvedSetting> settings_ TRAVERSE_GUARDED_BY(mutex_);
+  std::vector<PastFrame> past_ TRAVERSE_GUARDED_BY(mutex_);
+  std::optional<geometry::Pose3> T_map_reference_ TRAVERSE_GUARDED_BY(mutex_);
+  std::shared_ptr<const Shown> shown_ TRAVERSE_GUARDED_BY(mutex_);
+  std::deque<std::function<void()>> jobs_ TRAVERSE_GUARDED_BY(mutex_);
+  bool has_job_ TRAVERSE_GUARDED_BY(mutex_) = false;  // at work
+  PlayerStatus status_ TRAVERSE_GUARDED_BY(mutex_);
 
-  mutable std::mutex map_mutex_;
-  MapHistory map_;
+  mutable parallel::Mutex map_mutex_;
+  MapHistory map_ TRAVERSE_GUARDED_BY(map_mutex_);
 
   std::atomic<bool> stop_{false};
   std::thread estimating_;
