@@ -19,8 +19,8 @@ namespace traverse::app {
 namespace {
 
 loam::FactorBench measure(const std::vector<sensors::LidarScan>& scans,
-                           const sensors::LidarProfile& profile, bool motion_compensated,
-                           int repeats) {
+                          const sensors::LidarProfile& profile, bool motion_compensated,
+                          int repeats) {
   const loam::ScanToMapOdometryOptions options;
   const auto correspondences =
       lidar::correspondences_of_last(scans, profile, motion_compensated, options);
@@ -34,7 +34,7 @@ std::size_t begin_of(std::size_t first, std::size_t frame) {
 }  // namespace
 
 loam::FactorBench measure_on_recording(dataset::Source& source, std::size_t first,
-                                        std::size_t frame, int repeats) {
+                                       std::size_t frame, int repeats) {
   const std::size_t begin = begin_of(first, frame);
   std::vector<sensors::LidarScan> scans;
   std::size_t frames = 0;

@@ -17,7 +17,7 @@ inline constexpr int kFactorRepeats = 51;
 /// Frames before it are followed from `first` on, at most kFramesBefore of them.
 /// \throws std::runtime_error if the recording ends before it or has no lidar
 loam::FactorBench measure_on_recording(dataset::Source& source, std::size_t first,
-                                        std::size_t frame, int repeats);
+                                       std::size_t frame, int repeats);
 
 /// The same on a simulated street.
 loam::FactorBench measure_on_simulated_street(std::size_t frame, int repeats);

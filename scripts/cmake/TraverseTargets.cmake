@@ -105,13 +105,28 @@ function(traverse_library name)
   endif()
 endfunction()
 
-# traverse_test(NAME SOURCES ... USES ... [SHARDS n] [TIMEOUT seconds])
+# What `scripts/test --unit` builds, and what the sanitizers' builds do.
+add_custom_target(unit_tests)
+add_custom_target(sanitized_tests)
+
+# traverse_test(NAME SOURCES ... USES ... [LABEL label] [SHARDS n] [TIMEOUT seconds] [LONG])
 #
-# Defines the GoogleTest program NAME_test and registers it with CTest: once, or as n shards that
-# run side by side. Cases share a process, because loading the libraries and setting up a suite take
-# longer than most of them; `NAME_test --gtest_filter=SUITE.CASE` runs one.
+# Defines the GoogleTest program NAME_test and registers it with CTest under LABEL (unit where none is
+# given; end-to-end, window, slurm; tests/browser has its own): once, or as n shards that run side by
+# side. LONG: it has suites whose names begin with Long, which are a test of their own with the label
+# long and run under `scripts/test --long` only. Cases share a process, because loading the libraries
+# and setting up a suite take longer than most of them; `NAME_test --gtest_filter=SUITE.CASE` runs one.
 function(traverse_test name)
-  cmake_parse_arguments(ARG "" "SHARDS;TIMEOUT" "SOURCES;USES" ${ARGN})
+  cmake_parse_arguments(ARG "LONG" "LABEL;SHARDS;TIMEOUT" "SOURCES;USES" ${ARGN})
+  if(NOT ARG_LABEL)
+    set(ARG_LABEL unit)
+  endif()
+  set(filter "")
+  if(ARG_LONG)
+    set(filter --gtest_filter=-Long*)
+    add_test(NAME ${name}.long COMMAND ${name}_test --gtest_filter=Long*)
+    set_tests_properties(${name}.long PROPERTIES TIMEOUT 3600 LABELS long)
+  endif()
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 1200)
   endif()
@@ -133,16 +148,23 @@ function(traverse_test name)
   endif()
   traverse_precompile(${name}_test precompiled_for_tests HEADERS <gmock/gmock.h> <gtest/gtest.h>
     FLAGS GTest::gmock GTest::gtest traverse_build_flags traverse_test_flags)
+  if(ARG_LABEL STREQUAL unit)
+    add_dependencies(unit_tests ${name}_test)
+  endif()
+  if(ARG_LABEL MATCHES "^(unit|end-to-end)$")
+    add_dependencies(sanitized_tests ${name}_test)
+  endif()
   if(NOT ARG_SHARDS)
-    add_test(NAME ${name} COMMAND ${name}_test)
-    set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+    add_test(NAME ${name} COMMAND ${name}_test ${filter})
+    set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS ${ARG_LABEL})
     return()
   endif()
   math(EXPR last "${ARG_SHARDS} - 1")
   foreach(shard RANGE ${last})
-    add_test(NAME ${name}.${shard} COMMAND ${name}_test)
+    add_test(NAME ${name}.${shard} COMMAND ${name}_test ${filter})
     # COST: the long ones first.
     set_tests_properties(${name}.${shard} PROPERTIES TIMEOUT ${ARG_TIMEOUT} COST 100
+      LABELS ${ARG_LABEL}
       ENVIRONMENT "GTEST_TOTAL_SHARDS=${ARG_SHARDS};GTEST_SHARD_INDEX=${shard}")
   endforeach()
 endfunction()

@@ -16,9 +16,9 @@
 
 #include <tbb/parallel_for.h>
 
-#include "traverse/voxel_map/voxel_map_odometry.hpp"
 #include "traverse/sensors/lidar_profile.hpp"
 #include "traverse/simulation/simulation.hpp"
+#include "traverse/voxel_map/voxel_map_odometry.hpp"
 
 namespace {
 

@@ -1,7 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "optimization/checked_factors.hpp"
 #include "traverse/inertial/factor_kinds.hpp"
+
+#include "optimization/checked_factors.hpp"
 
 namespace traverse::inertial {
 namespace {

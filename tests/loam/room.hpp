@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "traverse/loam/local_map.hpp"
 #include "traverse/lidar/timed_points.hpp"
+#include "traverse/loam/local_map.hpp"
 
 namespace traverse::testing {
 

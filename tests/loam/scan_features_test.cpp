@@ -30,8 +30,8 @@ TEST(CollectFeatures, SortsClassesIntoEdgesAndPlanesWithTheirTimes) {
   profile.min_range_m = 0.1;
   const lidar::ScanLines lines = lidar::organise(scan, profile);
   Features features;
-  features.classes = {lidar::FeatureClass::kSharp, lidar::FeatureClass::kFlat, lidar::FeatureClass::kLessSharp,
-                      lidar::FeatureClass::kLessFlat};
+  features.classes = {lidar::FeatureClass::kSharp, lidar::FeatureClass::kFlat,
+                      lidar::FeatureClass::kLessSharp, lidar::FeatureClass::kLessFlat};
   const ScanFeatures found = collect_features(scan, profile, lines, features, ThinningOptions{});
   // Rings in bit-reversed order: 0, 2, 1, 3.
   EXPECT_THAT(found.edges.x, ElementsAre(1, 3));

@@ -17,7 +17,8 @@ namespace {
 using testing::SimulatedDrive;
 using testing::worst_position_error;
 
-std::vector<lidar::Frame> run(const SimulatedDrive& drive, const ScanToMapOdometryOptions& options) {
+std::vector<lidar::Frame> run(const SimulatedDrive& drive,
+                              const ScanToMapOdometryOptions& options) {
   ScanToMapOdometry odometry(options, drive.scanner.profile, false);
   return testing::frames_of(odometry, drive);
 }

@@ -41,9 +41,10 @@ LineIndex wall(std::size_t lines) {
   return LineIndex(std::move(points));
 }
 
-Matches match(const lidar::TimedPoints& sharp, const lidar::TimedPoints& flat, const LineIndex& edges,
-              const LineIndex& planar, const geometry::Pose3& T_last_current = {},
-              const SweepClock& clock = {}, const ScanToScanOptions& options = {}) {
+Matches match(const lidar::TimedPoints& sharp, const lidar::TimedPoints& flat,
+              const LineIndex& edges, const LineIndex& planar,
+              const geometry::Pose3& T_last_current = {}, const SweepClock& clock = {},
+              const ScanToScanOptions& options = {}) {
   return associate_scans(sharp, flat, edges, planar, T_last_current, clock, options, 1);
 }
 

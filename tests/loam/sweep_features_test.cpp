@@ -24,8 +24,8 @@ class SweepFeaturesTest : public ::testing::Test {
 TEST_F(SweepFeaturesTest, TheBestPointsAskAndTheGoodOnesAnswer) {
   EXPECT_EQ(sweep.sharp.size(), features.count(lidar::FeatureClass::kSharp));
   EXPECT_EQ(sweep.flat.size(), features.count(lidar::FeatureClass::kFlat));
-  EXPECT_EQ(sweep.edges.size(),
-            features.count(lidar::FeatureClass::kSharp) + features.count(lidar::FeatureClass::kLessSharp));
+  EXPECT_EQ(sweep.edges.size(), features.count(lidar::FeatureClass::kSharp) +
+                                    features.count(lidar::FeatureClass::kLessSharp));
   EXPECT_GT(sweep.planar.size(), sweep.flat.size());
   EXPECT_LT(sweep.planar.size(), features.count(lidar::FeatureClass::kLessFlat) / 2) << "thinned";
 }
@@ -54,8 +54,8 @@ TEST_F(SweepFeaturesTest, ThinningIsLineByLine) {
 }
 
 TEST(SweepFeatures, AnEmptyScanHasNone) {
-  const SweepFeatures sweep =
-      collect_sweep(sensors::LidarScan{}, sensors::LidarProfile{}, lidar::ScanLines{}, Features{}, 0.2);
+  const SweepFeatures sweep = collect_sweep(sensors::LidarScan{}, sensors::LidarProfile{},
+                                            lidar::ScanLines{}, Features{}, 0.2);
   EXPECT_EQ(sweep.sharp.size() + sweep.flat.size() + sweep.edges.size() + sweep.planar.size(), 0U);
 }
 

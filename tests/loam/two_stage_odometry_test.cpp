@@ -25,7 +25,7 @@ using testing::SimulatedDrive;
 using testing::worst_position_error;
 
 std::vector<lidar::Frame> run(const SimulatedDrive& drive, const TwoStageOdometryOptions& options,
-                       const std::vector<sensors::ImuSample>& imu = {}) {
+                              const std::vector<sensors::ImuSample>& imu = {}) {
   TwoStageOdometry odometry(options, drive.scanner.profile, false);
   return testing::frames_of(odometry, drive, imu);
 }

@@ -15,10 +15,10 @@
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
 #include "traverse/files/input_error.hpp"
-
-#include "file_size_limit.hpp"
 #include "traverse/mrpt_io/gz_stream.hpp"
 #include "traverse/mrpt_io/point_attributes.hpp"
+
+#include "file_size_limit.hpp"
 #include "temporary_folder.hpp"
 
 namespace traverse::mrpt_io {

@@ -6,7 +6,6 @@
 
 #include "traverse/geometry/so3.hpp"
 #include "traverse/optimization/rotation_manifold.hpp"
-
 #include "traverse/parallel/workers.hpp"
 
 namespace traverse::voxel_map {

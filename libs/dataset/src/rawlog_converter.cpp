@@ -14,7 +14,6 @@
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include "traverse/files/input_error.hpp"
-
 #include "traverse/mrpt_io/lidar_observations.hpp"
 #include "traverse/mrpt_io/mrpt_values.hpp"
 
@@ -99,7 +98,8 @@ const Message* find_message(const mrpt::obs::CObservationGPS& observation) {
 GnssFix gnss_fix(const mrpt::obs::CObservationGPS& observation) {
   GnssFix fix;
   if (const auto* gga = find_message<mrpt::obs::gnss::Message_NMEA_GGA>(observation)) {
-    if (gga->fields.fix_quality == 0) throw mrpt_io::UnusableObservation("GNSS record without a fix");
+    if (gga->fields.fix_quality == 0)
+      throw mrpt_io::UnusableObservation("GNSS record without a fix");
     fix.latitude_deg = gga->fields.latitude_degrees;
     fix.longitude_deg = gga->fields.longitude_degrees;
     // NMEA: above the mean sea level, and that above the ellipsoid.
@@ -107,7 +107,8 @@ GnssFix gnss_fix(const mrpt::obs::CObservationGPS& observation) {
     return fix;
   }
   if (const auto* rmc = find_message<mrpt::obs::gnss::Message_NMEA_RMC>(observation)) {
-    if (rmc->fields.validity_char != 'A') throw mrpt_io::UnusableObservation("GNSS record without a fix");
+    if (rmc->fields.validity_char != 'A')
+      throw mrpt_io::UnusableObservation("GNSS record without a fix");
     fix.latitude_deg = rmc->fields.latitude_degrees;
     fix.longitude_deg = rmc->fields.longitude_degrees;
     fix.altitude_m = std::numeric_limits<double>::quiet_NaN();
@@ -152,14 +153,16 @@ ConvertedRecord RawlogConverter::convert(const mrpt_io::RawlogRecord& record) {
 }
 
 void RawlogConverter::add_observation(mrpt::obs::CObservation& observation,
-                                      const mrpt_io::RawlogRecord& record, ConvertedRecord& result) {
+                                      const mrpt_io::RawlogRecord& record,
+                                      ConvertedRecord& result) {
   try {
     const auto stamp = mrpt_io::to_stamp(observation.timestamp);
     if (stamp && state_.odometry_waits) flush_odometry(*stamp, result);
     if (!is_used(observation)) {
       throw mrpt_io::UnusableObservation("class not used: " + class_of(observation));
     }
-    if (!stamp) throw mrpt_io::UnusableObservation("no stamp in a record of " + class_of(observation));
+    if (!stamp)
+      throw mrpt_io::UnusableObservation("no stamp in a record of " + class_of(observation));
     result.measurements.push_back(measurement_from(observation, *stamp));
   } catch (const mrpt_io::UnusableObservation& error) {
     result.skipped.push_back({error.what(), record.place});
@@ -239,7 +242,8 @@ void RawlogConverter::add_actions(const mrpt::obs::CActionCollection& actions,
 }
 
 void RawlogConverter::add_up(const mrpt::obs::CActionRobotMovement2D& action) {
-  const Pose3 T_before_after = mrpt_io::to_pose(mrpt::poses::CPose3D(action.rawOdometryIncrementReading));
+  const Pose3 T_before_after =
+      mrpt_io::to_pose(mrpt::poses::CPose3D(action.rawOdometryIncrementReading));
   state_.odometry.T_odom_body =
       state_.odometry.T_odom_body.value_or(Pose3::identity()) * T_before_after;
   if (mrpt_io::is_set(action.hasEncodersInfo)) {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "traverse/geometry/pose3.hpp"
+#include "traverse/mrpt_io/rawlog_reader.hpp"
 #include "traverse/sensors/measurement.hpp"
 
-#include "traverse/mrpt_io/rawlog_reader.hpp"
 #include "rawlog_sensors.hpp"
 
 namespace mrpt::obs {

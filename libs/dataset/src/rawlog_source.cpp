@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "traverse/files/input_error.hpp"
+#include "traverse/mrpt_io/rawlog_reader.hpp"
 
 #include "folder_opening.hpp"
 #include "rawlog_converter.hpp"
-#include "traverse/mrpt_io/rawlog_reader.hpp"
 #include "rawlog_sensors.hpp"
 #include "reorder_window.hpp"
 #include "stamp_order.hpp"

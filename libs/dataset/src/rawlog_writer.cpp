@@ -13,9 +13,9 @@
 #include "traverse/dataset/recording_writer.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
-
 #include "traverse/mrpt_io/gz_stream.hpp"
 #include "traverse/mrpt_io/mrpt_values.hpp"
+
 #include "scan_completion.hpp"
 #include "sidecar.hpp"
 
@@ -214,8 +214,8 @@ class RawlogWriter : public RecordingWriter {
       auto archive = mrpt::serialization::archiveFrom(stream_);
       archive << observation;
     } catch (const std::exception& error) {
-      throw files::OutputError(file_,
-                               stream_.fault().empty() ? mrpt_io::message_of(error) : stream_.fault());
+      throw files::OutputError(
+          file_, stream_.fault().empty() ? mrpt_io::message_of(error) : stream_.fault());
     }
   }
 

@@ -25,8 +25,12 @@ std::vector<std::size_t> bit_reversed_order(std::size_t count) {
   return order;
 }
 
-bool is_edge(lidar::FeatureClass c) { return c == lidar::FeatureClass::kSharp || c == lidar::FeatureClass::kLessSharp; }
-bool is_planar(lidar::FeatureClass c) { return c == lidar::FeatureClass::kFlat || c == lidar::FeatureClass::kLessFlat; }
+bool is_edge(lidar::FeatureClass c) {
+  return c == lidar::FeatureClass::kSharp || c == lidar::FeatureClass::kLessSharp;
+}
+bool is_planar(lidar::FeatureClass c) {
+  return c == lidar::FeatureClass::kFlat || c == lidar::FeatureClass::kLessFlat;
+}
 
 }  // namespace
 

@@ -3,14 +3,14 @@
 #include <vector>
 
 #include "traverse/lidar/deskew.hpp"
-
 #include "traverse/lidar/stopwatch.hpp"
 
 namespace traverse::loam {
 
 namespace {
 
-std::vector<Eigen::Vector3d> in_map(const lidar::TimedPoints& points, const geometry::Pose3& T_map_lidar) {
+std::vector<Eigen::Vector3d> in_map(const lidar::TimedPoints& points,
+                                    const geometry::Pose3& T_map_lidar) {
   std::vector<Eigen::Vector3d> result;
   result.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) result.push_back(T_map_lidar * points.point(i));
@@ -41,7 +41,8 @@ std::vector<Eigen::Vector3d> ScanToMap::points() const {
   return points;
 }
 
-lidar::TimedPoints ScanToMap::at_stamp(const lidar::TimedPoints& points, const geometry::Twist& velocity) const {
+lidar::TimedPoints ScanToMap::at_stamp(const lidar::TimedPoints& points,
+                                       const geometry::Twist& velocity) const {
   return options_.deskew ? lidar::deskewed(points, velocity) : points;
 }
 

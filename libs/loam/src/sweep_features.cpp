@@ -35,7 +35,8 @@ SweepFeatures collect_sweep(const sensors::LidarScan& scan, const sensors::Lidar
       };
       if (c == lidar::FeatureClass::kSharp) add_to(sweep.sharp);
       if (c == lidar::FeatureClass::kFlat) add_to(sweep.flat);
-      add_to(c == lidar::FeatureClass::kSharp || c == lidar::FeatureClass::kLessSharp ? edges : planar);
+      add_to(c == lidar::FeatureClass::kSharp || c == lidar::FeatureClass::kLessSharp ? edges
+                                                                                      : planar);
     }
     append(sweep.edges, edges, k);
     append(sweep.planar, thinned(planar, planar_voxel_m), k);

@@ -17,7 +17,6 @@
 #include "traverse/files/scratch_file.hpp"
 #include "traverse/geometry/so3.hpp"
 #include "traverse/geometry/voxel.hpp"
-
 #include "traverse/mrpt_io/mrpt_values.hpp"
 #include "traverse/mrpt_io/point_attributes.hpp"
 #include "traverse/mrpt_io/simple_map_file.hpp"

@@ -10,7 +10,6 @@
 #include <mrpt/poses/CPose3DPDF.h>
 
 #include "traverse/files/input_error.hpp"
-
 #include "traverse/mrpt_io/mrpt_values.hpp"
 #include "traverse/mrpt_io/point_attributes.hpp"
 #include "traverse/mrpt_io/simple_map_file.hpp"

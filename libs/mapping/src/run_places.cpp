@@ -38,8 +38,7 @@ voxel_map::SweepSample features_of(const MapKeyframe& keyframe) {
   }
   sample.surface_is_planar = is_flat;
   sample.surface.time.assign(sample.surface.size(), 0);
-  for (const std::uint32_t i :
-       voxel_map::first_of_each_cube(sample.surface, is_flat, kThinned_m)) {
+  for (const std::uint32_t i : voxel_map::first_of_each_cube(sample.surface, is_flat, kThinned_m)) {
     sample.planar.append(sample.surface, i);
   }
   return sample;

@@ -9,7 +9,6 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include "traverse/files/input_error.hpp"
-
 #include "traverse/mrpt_io/mrpt_values.hpp"
 
 namespace traverse::mrpt_io {

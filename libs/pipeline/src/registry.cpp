@@ -97,8 +97,7 @@ const Kind& find_kind(const Preset& preset) {
       {"gins_window", kNavigationKind<inertial::SlidingWindowOptions>},
       {"scan_to_map", kLidarKind<loam::ScanToMapOdometry, loam::ScanToMapOdometryOptions>},
       {"two_stage", kLidarKind<loam::TwoStageOdometry, loam::TwoStageOdometryOptions>},
-      {"voxel_map",
-       kLidarKind<voxel_map::VoxelMapOdometry, voxel_map::VoxelMapOdometryOptions>}};
+      {"voxel_map", kLidarKind<voxel_map::VoxelMapOdometry, voxel_map::VoxelMapOdometryOptions>}};
   const std::string name = preset.resolved.scalar("estimator").value_or("");
   const auto found = kKinds.find(name);
   if (found != kKinds.end()) return found->second;

@@ -73,8 +73,8 @@ RunData read_run(const std::filesystem::path& folder) {
   }
   run.jacobians =
       read_if_there(files.jacobians(), "a check of Jacobians", optimization::audit_from_json);
-  run.factor_bench = read_if_there(files.factor_bench(), "a measurement of factors",
-                                   loam::factor_bench_from_json);
+  run.factor_bench =
+      read_if_there(files.factor_bench(), "a measurement of factors", loam::factor_bench_from_json);
   return run;
 }
 

@@ -15,7 +15,6 @@
 #include <nlohmann/json.hpp>
 
 #include "traverse/files/input_error.hpp"
-
 #include "traverse/mrpt_io/mrpt_values.hpp"
 #include "traverse/mrpt_io/point_attributes.hpp"
 #include "traverse/mrpt_io/simple_map_file.hpp"

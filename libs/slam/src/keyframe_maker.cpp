@@ -9,11 +9,10 @@
 #include "traverse/geometry/angle.hpp"
 #include "traverse/geometry/so3.hpp"
 #include "traverse/geometry/voxel.hpp"
-#include "traverse/voxel_map/local_points.hpp"
+#include "traverse/parallel/workers.hpp"
 #include "traverse/sensors/rings.hpp"
 #include "traverse/sensors/sweep_timing.hpp"
-
-#include "traverse/parallel/workers.hpp"
+#include "traverse/voxel_map/local_points.hpp"
 
 namespace traverse::slam {
 
@@ -153,8 +152,7 @@ geometry::Matrix6 registration_covariance(const lidar::RegistrationHealth& healt
   return covariance;
 }
 
-voxel_map::SweepSample deskewed(voxel_map::SweepSample sample,
-                                   const geometry::Twist& velocity) {
+voxel_map::SweepSample deskewed(voxel_map::SweepSample sample, const geometry::Twist& velocity) {
   for (auto* points : {&sample.surface, &sample.planar, &sample.edges}) deskew(*points, velocity);
   return sample;
 }

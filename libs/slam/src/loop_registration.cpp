@@ -5,7 +5,6 @@
 
 #include "traverse/geometry/angle.hpp"
 #include "traverse/geometry/so3.hpp"
-
 #include "traverse/parallel/workers.hpp"
 
 namespace traverse::slam {
@@ -90,8 +89,7 @@ std::vector<geometry::Pose3> starts_around(const geometry::Pose3& guess, const S
 }
 
 double overlap_at(const geometry::Pose3& T_centre_lidar, const Submap& submap,
-                  const voxel_map::SweepSample& features,
-                  const LoopRegistrationOptions& options) {
+                  const voxel_map::SweepSample& features, const LoopRegistrationOptions& options) {
   const std::size_t points = features.planar.size() + features.edges.size();
   if (points == 0) return 0;
   parallel::Workers alone(1);

@@ -8,11 +8,11 @@
 #include <ceres/solver.h>
 
 #include "traverse/geometry/so3.hpp"
-#include "traverse/optimization/rotation_manifold.hpp"
-
 #include "traverse/lidar/stopwatch.hpp"
-#include "condensed_cost.hpp"
+#include "traverse/optimization/rotation_manifold.hpp"
 #include "traverse/parallel/workers.hpp"
+
+#include "condensed_cost.hpp"
 
 namespace traverse::voxel_map {
 
@@ -28,7 +28,7 @@ double median(std::vector<float> values) {
 /// The information of the matches on the body twist, rotation in units of `scale_m`, a match's
 /// mean.
 lidar::Matrix6 information(const NormalEquations& normal, const Eigen::Matrix3d& R_map_lidar,
-                    double scale_m) {
+                           double scale_m) {
   lidar::Matrix6 axes = lidar::Matrix6::Identity();
   axes.topLeftCorner<3, 3>() /= scale_m;
   axes.bottomRightCorner<3, 3>() = R_map_lidar;
@@ -92,7 +92,8 @@ void bind(config::Binder& b, AlignmentOptions& o) {
 
 Alignment align(const SweepSample& sample, const VoxelMap& map, const MotionModel& motion,
                 const geometry::Pose3& guess_T_map_lidar, const AlignmentOptions& options,
-                const Effort& effort, parallel::Workers& workers, ScanMatches& matches, lidar::StageTimes& ms) {
+                const Effort& effort, parallel::Workers& workers, ScanMatches& matches,
+                lidar::StageTimes& ms) {
   lidar::Stopwatch watch;
   Alignment result;
   result.T_map_lidar = guess_T_map_lidar;
@@ -127,8 +128,9 @@ Alignment align(const SweepSample& sample, const VoxelMap& map, const MotionMode
     const auto count = static_cast<double>(matches.size());
     health.residual_rms_m = std::sqrt(normal.squared_m / count);
     health.inlier_share = normal.inliers / count;
-    health.observability = lidar::observability(information(normal, result.T_map_lidar.rotation, scale_m),
-                                         scale_m, options.least_eigenvalue);
+    health.observability =
+        lidar::observability(information(normal, result.T_map_lidar.rotation, scale_m), scale_m,
+                             options.least_eigenvalue);
 
     const Solved solved = solve(cost, result.T_map_lidar, options.iterations);
     health.iterations += solved.iterations;

@@ -1,9 +1,9 @@
 #include "traverse/voxel_map/local_points.hpp"
 
+#include "traverse/parallel/workers.hpp"
 #include "traverse/voxel_map/cell_grid.hpp"
 
 #include "lanes.hpp"
-#include "traverse/parallel/workers.hpp"
 
 namespace traverse::voxel_map {
 

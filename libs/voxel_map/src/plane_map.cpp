@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include "point_hash.hpp"
 #include "traverse/parallel/workers.hpp"
+
+#include "point_hash.hpp"
 
 namespace traverse::voxel_map {
 
@@ -221,7 +222,8 @@ void PlaneMap::prefetch_plane(const CellGrid& at, const RelativeCell& cell) cons
   if (fine != kNone) __builtin_prefetch(&shard.fine.planes[fine]);
 }
 
-void PlaneMap::keep_near(const Eigen::Vector3d& centre_map, double radius_m, parallel::Workers& workers) {
+void PlaneMap::keep_near(const Eigen::Vector3d& centre_map, double radius_m,
+                         parallel::Workers& workers) {
   const double coarse_m = kParent * options_.cell_m;
   workers.run(kShards, [&](std::size_t s) {
     Level& coarse = shards_[s].coarse;

@@ -98,8 +98,8 @@ void ScanMatches::forget() {
 }
 
 void associate(const SweepSample& sample, const LocalPoints& planar, const LocalPoints& edges,
-               const VoxelMap& map, double gate_m, const MatchOptions& options, parallel::Workers& workers,
-               ScanMatches& matches) {
+               const VoxelMap& map, double gate_m, const MatchOptions& options,
+               parallel::Workers& workers, ScanMatches& matches) {
   matches.origin_map = planar.origin_map;
   const auto gate = static_cast<float>(gate_m);
   const auto noise = static_cast<float>(options.noise_m * options.noise_m);

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "lanes.hpp"
 #include "traverse/parallel/workers.hpp"
+
+#include "lanes.hpp"
 
 namespace traverse::voxel_map {
 

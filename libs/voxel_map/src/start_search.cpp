@@ -29,7 +29,8 @@ class Follower {
     map_options_.lines.least_frames = 1;  // there are not three frames yet
   }
 
-  Hypothesis follow(const geometry::Twist& start, std::size_t scans, parallel::Workers& workers) const {
+  Hypothesis follow(const geometry::Twist& start, std::size_t scans,
+                    parallel::Workers& workers) const {
     lidar::StageTimes ignored;
     Hypothesis result{start, 0};
     geometry::Twist velocity = start;
@@ -83,7 +84,8 @@ void bind(config::Binder& b, StartSearchOptions& o) {
 geometry::Twist find_initial_velocity(std::span<const SweepSample> first_scans,
                                       std::span<const double> intervals_s, bool deskew,
                                       const VoxelMapOptions& map, const AlignmentOptions& alignment,
-                                      const StartSearchOptions& options, parallel::Workers& workers) {
+                                      const StartSearchOptions& options,
+                                      parallel::Workers& workers) {
   const Follower follower(first_scans, intervals_s, deskew, map, alignment);
   const auto steps = static_cast<std::size_t>(std::max(
       0.0, std::floor((options.fastest_mps - options.slowest_mps) / options.step_mps + 1e-9)));

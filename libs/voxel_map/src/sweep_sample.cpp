@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "traverse/lidar/stopwatch.hpp"
+#include "traverse/parallel/workers.hpp"
 #include "traverse/sensors/sweep_timing.hpp"
 #include "traverse/sensors/vertical_correction.hpp"
 
-#include "traverse/lidar/stopwatch.hpp"
 #include "point_hash.hpp"
-#include "traverse/parallel/workers.hpp"
 
 namespace traverse::voxel_map {
 

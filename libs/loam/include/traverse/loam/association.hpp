@@ -7,10 +7,10 @@
 #include <Eigen/Core>
 
 #include "traverse/geometry/pose3.hpp"
+#include "traverse/lidar/timed_points.hpp"
 #include "traverse/loam/local_map.hpp"
 #include "traverse/loam/neighbourhood.hpp"
 #include "traverse/loam/residuals.hpp"
-#include "traverse/lidar/timed_points.hpp"
 
 namespace traverse::loam {
 
@@ -53,8 +53,9 @@ void bind(config::Binder& binder, AssociationOptions& options);
 /// in the map, under the pose `T_map_lidar`; points whose neighbours do not make one are left out.
 /// The result is in the order of the points for any number of `threads`.
 /// Source: LOAM (2014) section VI, F-LOAM (2021) section III-C.
-Matches associate(const lidar::TimedPoints& edges, const lidar::TimedPoints& planar, const LocalMap& edge_map,
-                  const LocalMap& planar_map, const geometry::Pose3& T_map_lidar,
-                  const AssociationOptions& options, int threads);
+Matches associate(const lidar::TimedPoints& edges, const lidar::TimedPoints& planar,
+                  const LocalMap& edge_map, const LocalMap& planar_map,
+                  const geometry::Pose3& T_map_lidar, const AssociationOptions& options,
+                  int threads);
 
 }  // namespace traverse::loam

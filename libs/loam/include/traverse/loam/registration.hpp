@@ -2,8 +2,8 @@
 
 #include "traverse/config/binder.hpp"
 #include "traverse/geometry/pose3.hpp"
-#include "traverse/loam/association.hpp"
 #include "traverse/lidar/observability.hpp"
+#include "traverse/loam/association.hpp"
 #include "traverse/optimization/derivative.hpp"
 #include "traverse/optimization/perturbation.hpp"
 

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <memory>
 
-#include "traverse/loam/features.hpp"
 #include "traverse/lidar/scan_lines.hpp"
 #include "traverse/lidar/timed_points.hpp"
+#include "traverse/loam/features.hpp"
 #include "traverse/sensors/lidar_profile.hpp"
 #include "traverse/sensors/lidar_scan.hpp"
 

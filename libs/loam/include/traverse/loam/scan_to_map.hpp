@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "traverse/loam/association.hpp"
 #include "traverse/lidar/frame.hpp"
+#include "traverse/loam/association.hpp"
 #include "traverse/loam/local_map.hpp"
 #include "traverse/loam/registration.hpp"
 #include "traverse/loam/scan_features.hpp"
@@ -57,7 +57,8 @@ class ScanToMap {
   const LocalMap& planar_map() const { return planar_map_; }
 
  private:
-  lidar::TimedPoints at_stamp(const lidar::TimedPoints& points, const geometry::Twist& velocity) const;
+  lidar::TimedPoints at_stamp(const lidar::TimedPoints& points,
+                              const geometry::Twist& velocity) const;
 
   ScanToMapOptions options_;
   LocalMap edge_map_;

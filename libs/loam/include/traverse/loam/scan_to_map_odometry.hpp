@@ -49,7 +49,7 @@ class ScanToMapOdometry final : public lidar::Odometry {
   const std::string& deskew_note() const override { return deskew_note_; }
   std::vector<optimization::FactorUse> factors() const override;
   lidar::CorrectedScan used_scan(const sensors::LidarScan& scan, const geometry::Twist& velocity,
-                          bool with_classes) const override;
+                                 bool with_classes) const override;
   std::unique_ptr<lidar::Odometry> clone() const override {
     return std::make_unique<ScanToMapOdometry>(*this);
   }

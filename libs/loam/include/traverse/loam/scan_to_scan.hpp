@@ -2,8 +2,8 @@
 
 #include "traverse/config/binder.hpp"
 #include "traverse/geometry/pose3.hpp"
-#include "traverse/loam/association.hpp"
 #include "traverse/lidar/frame.hpp"
+#include "traverse/loam/association.hpp"
 #include "traverse/loam/line_index.hpp"
 #include "traverse/loam/registration.hpp"
 #include "traverse/loam/sweep_features.hpp"

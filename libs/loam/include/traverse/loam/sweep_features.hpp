@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "traverse/loam/features.hpp"
 #include "traverse/lidar/scan_lines.hpp"
 #include "traverse/lidar/timed_points.hpp"
+#include "traverse/loam/features.hpp"
 #include "traverse/sensors/lidar_profile.hpp"
 #include "traverse/sensors/lidar_scan.hpp"
 
@@ -23,10 +23,10 @@ struct LinedPoints {
 /// What scan-to-scan odometry keeps of one sweep, not yet deskewed: the few best points ask, and
 /// the many good ones of the next scan's predecessor answer. Source: LOAM (2014), section V-B.
 struct SweepFeatures {
-  lidar::TimedPoints sharp;   ///< the sharpest edge points
-  lidar::TimedPoints flat;    ///< the flattest planar points
-  LinedPoints edges;   ///< sharp and less sharp
-  LinedPoints planar;  ///< flat and less flat, the first of each scan line in a cube
+  lidar::TimedPoints sharp;  ///< the sharpest edge points
+  lidar::TimedPoints flat;   ///< the flattest planar points
+  LinedPoints edges;         ///< sharp and less sharp
+  LinedPoints planar;        ///< flat and less flat, the first of each scan line in a cube
 };
 
 /// \param planar_voxel_m edge of the cubes that thin `planar`, line by line

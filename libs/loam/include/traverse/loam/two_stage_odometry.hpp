@@ -8,8 +8,8 @@
 #include "traverse/config/binder.hpp"
 #include "traverse/lidar/frame.hpp"
 #include "traverse/lidar/held_back.hpp"
-#include "traverse/loam/imu_prediction.hpp"
 #include "traverse/lidar/odometry.hpp"
+#include "traverse/loam/imu_prediction.hpp"
 #include "traverse/loam/scan_to_map.hpp"
 #include "traverse/loam/scan_to_scan.hpp"
 #include "traverse/loam/speed_search.hpp"
@@ -63,7 +63,7 @@ class TwoStageOdometry final : public lidar::Odometry {
   void observe(const sensors::ImuSample& sample_lidar) override;
   const std::string& deskew_note() const override { return deskew_note_; }
   lidar::CorrectedScan used_scan(const sensors::LidarScan& scan, const geometry::Twist& velocity,
-                          bool with_classes) const override;
+                                 bool with_classes) const override;
   const std::vector<std::string>& further_columns() const override;
   std::unique_ptr<lidar::Odometry> clone() const override {
     return std::make_unique<TwoStageOdometry>(*this);

@@ -15,10 +15,9 @@ namespace traverse::slam {
 /// T_map_lidar; its sensory frame holds four point clouds in the lidar's frame: "map points" with
 /// intensity, "surface points" (what a map of planes is made of), "planar points" and "edge points"
 /// (what a scan is registered by); time and ring of the map points as an observation without points
-/// of its own, because MRPT's clouds cannot hold them; and a comment with the step covariance and the
-/// health of the keyframe as JSON. One keyframe is in memory at a time.
-/// \param T_map_lidar of a keyframe by its id
-/// \throws files::OutputError
+/// of its own, because MRPT's clouds cannot hold them; and a comment with the step covariance and
+/// the health of the keyframe as JSON. One keyframe is in memory at a time. \param T_map_lidar of a
+/// keyframe by its id \throws files::OutputError
 void write_keyframes(const std::filesystem::path& file, const KeyframeStore& keyframes,
                      const std::function<geometry::Pose3(std::size_t)>& T_map_lidar);
 

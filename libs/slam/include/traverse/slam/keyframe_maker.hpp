@@ -62,7 +62,6 @@ class KeyframeMaker {
 geometry::Matrix6 registration_covariance(const lidar::RegistrationHealth& health);
 
 /// The features of a scan moved to where they stood at its stamp.
-voxel_map::SweepSample deskewed(voxel_map::SweepSample sample,
-                                   const geometry::Twist& velocity);
+voxel_map::SweepSample deskewed(voxel_map::SweepSample sample, const geometry::Twist& velocity);
 
 }  // namespace traverse::slam

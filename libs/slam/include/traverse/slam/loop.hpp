@@ -42,7 +42,7 @@ struct Loop {
   geometry::Pose3 T_candidate_keyframe;  ///< by registration; the prediction where that failed
   /// Of (rotation on the right, translation): as PoseGraph::add_between takes it.
   geometry::Matrix6 covariance = geometry::Matrix6::Zero();
-  double overlap = 0;  ///< share of the scan's points that lie on the submap
+  double overlap = 0;         ///< share of the scan's points that lie on the submap
   double submap_overlap = 1;  ///< the share that the submap's own centre reaches
   double residual_rms_m = 0;
   double weakest_eigenvalue = 0;   ///< of the information a match

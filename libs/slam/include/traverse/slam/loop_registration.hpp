@@ -5,8 +5,8 @@
 
 #include "traverse/config/binder.hpp"
 #include "traverse/geometry/pose3.hpp"
-#include "traverse/voxel_map/alignment.hpp"
 #include "traverse/slam/submap.hpp"
+#include "traverse/voxel_map/alignment.hpp"
 
 namespace traverse::slam {
 
@@ -40,8 +40,7 @@ std::vector<geometry::Pose3> starts_around(const geometry::Pose3& guess, const S
 
 /// Share of the points that lie on planes and lines of the submap when the lidar stands there.
 double overlap_at(const geometry::Pose3& T_centre_lidar, const Submap& submap,
-                  const voxel_map::SweepSample& features,
-                  const LoopRegistrationOptions& options);
+                  const voxel_map::SweepSample& features, const LoopRegistrationOptions& options);
 
 /// Registers the keyframe's features on the planes and lines of the submap as the odometry does:
 /// briefly from every start, then to the end from that under which most points find their place

@@ -6,8 +6,8 @@
 
 #include "traverse/config/binder.hpp"
 #include "traverse/geometry/pose3.hpp"
-#include "traverse/voxel_map/voxel_map.hpp"
 #include "traverse/slam/keyframe.hpp"
+#include "traverse/voxel_map/voxel_map.hpp"
 
 namespace traverse::slam {
 

@@ -56,9 +56,9 @@ void sample_surfaces(const Row& row, const std::vector<std::uint8_t>& breaks,
 
 /// Foreground boundaries: the end of a surface (of at least three points) whose neighbour beyond
 /// lies more than boundary_m farther from the sensor. What stands nearer than its background on
-/// both sides and is narrower than pole_width_m gives one point: the axis of a round pole. (The mean
-/// of its returns would go round the axis as the lidar passes, and so follow it a little.) Unlike
-/// corners by curvature these are seen from far, and they fix the motion along a street.
+/// both sides and is narrower than pole_width_m gives one point: the axis of a round pole. (The
+/// mean of its returns would go round the axis as the lidar passes, and so follow it a little.)
+/// Unlike corners by curvature these are seen from far, and they fix the motion along a street.
 /// \param pole_depth from the axis to the mean of the returns, in radii (LidarProfile)
 void sample_edges(const Row& row, const std::vector<std::uint8_t>& breaks,
                   const SamplingOptions& options, float nearest, float pole_depth,
