@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "traverse/render/theme.hpp"
+#include "traverse/statistics/quantile.hpp"
 
 #include "look.hpp"
 
@@ -20,13 +21,9 @@ constexpr float kFont = 14;
 constexpr double kClip = 0.97;  // larger values than this share leave the chart at its top
 
 /// The value below which `share` of the finite values lie; 0 if there is none.
-float percentile(std::vector<float> values, double share) {
+float finite_quantile(std::vector<float> values, double share) {
   std::erase_if(values, [](float value) { return !std::isfinite(value); });
-  if (values.empty()) return 0;
-  const auto rank =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), rank, values.end());
-  return *rank;
+  return values.empty() ? 0 : static_cast<float>(statistics::quantile(values, share));
 }
 
 /// The next of 1, 2, 5, 10, ... at or above.
@@ -65,7 +62,7 @@ void Chart::draw(NVGcontext* context) {
   const float top = y0 + kTextHeight + 2;
   const float height = static_cast<float>(mSize.y()) - kTextHeight - 4;
 
-  const float scale = round_up(percentile(values_, kClip));
+  const float scale = round_up(finite_quantile(values_, kClip));
   const bool has_now = present_ < values_.size() && std::isfinite(values_[present_]);
   text(context, x0, y0, NVG_ALIGN_LEFT, to_nanovg(colour_),
        has_now ? fmt::format("{} {:.3g} {}", title_, values_[present_], unit_)

@@ -12,6 +12,7 @@
 #include <mrpt/opengl/stock_objects.h>
 
 #include "traverse/render/theme.hpp"
+#include "traverse/statistics/quantile.hpp"
 
 #include "layer_colours.hpp"
 #include "look.hpp"
@@ -184,9 +185,7 @@ void Scene::show_scan(const replay::Shown& shown, const ViewSettings& settings) 
   if (!objects_->ground_z && !all.empty()) {
     std::vector<float> heights;
     for (const auto& p : all) heights.push_back(p.z());
-    const auto rank = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 20);
-    std::nth_element(heights.begin(), rank, heights.end());
-    objects_->ground_z = *rank;
+    objects_->ground_z = statistics::element_at_share(heights, 0.05);
   }
   scan_drawn_ = points.size();
   objects_->scan->setPointSize(all.size() < kSparseScan ? 3.5F : 2.0F);

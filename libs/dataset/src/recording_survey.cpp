@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "traverse/sensors/rings.hpp"
+#include "traverse/statistics/quantile.hpp"
 
 namespace traverse::dataset {
 
@@ -104,9 +105,7 @@ struct StreamTally {
       intervals.push_back(seconds_between(stamps[i - 1], stamps[i]));
     }
     if (!intervals.empty()) {
-      std::vector<double> sorted = intervals;
-      std::sort(sorted.begin(), sorted.end());
-      survey.median_interval_s = sorted[sorted.size() / 2];
+      survey.median_interval_s = statistics::median(intervals);
     }
     for (std::size_t i = 0; i < intervals.size(); ++i) {
       if (intervals[i] > kGapFactor * survey.median_interval_s) {

@@ -6,6 +6,7 @@
 
 #include "traverse/geometry/so3.hpp"
 #include "traverse/loam/factor_kinds.hpp"
+#include "traverse/statistics/quantile.hpp"
 
 #include "pose_factors.hpp"
 
@@ -32,12 +33,9 @@ double seconds_of(const Work& work) {
   return thread_seconds() - begin;
 }
 
-Spread spread_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
-  };
-  return {at(0.5), at(0.25), at(0.75)};
+Spread spread_of(const std::vector<double>& values) {
+  return {statistics::median(values), statistics::quantile(values, 0.25),
+          statistics::quantile(values, 0.75)};
 }
 
 /// Evaluates each cost function once with all Jacobians.

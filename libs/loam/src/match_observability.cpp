@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "traverse/statistics/quantile.hpp"
+
 #include "point_motion.hpp"
 
 namespace traverse::loam {
@@ -15,9 +17,7 @@ double median_range(const Matches& matches) {
   for (const auto& match : matches.lines) ranges.push_back(match.p_lidar.norm());
   for (const auto& match : matches.planes) ranges.push_back(match.p_lidar.norm());
   if (ranges.empty()) return 1;
-  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
-  std::nth_element(ranges.begin(), middle, ranges.end());
-  return std::max(*middle, 1e-3);
+  return std::max(statistics::element_at_share(ranges, 0.5), 1e-3);
 }
 
 }  // namespace

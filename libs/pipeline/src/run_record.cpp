@@ -10,6 +10,7 @@
 
 #include "traverse/files/digest.hpp"
 #include "traverse/pipeline/frame_table.hpp"
+#include "traverse/statistics/quantile.hpp"
 
 namespace traverse::pipeline {
 
@@ -27,14 +28,6 @@ std::string_view name_of(RunStatus status) {
       return "interrupted";
   }
   return "failed";
-}
-
-/// The value below which `share` of the values lie (nearest rank). `values` is not empty.
-double quantile(std::vector<double> values, double share) {
-  const auto rank =
-      static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
 }
 
 Json to_json(const config::Setting::Value& value) {
@@ -106,9 +99,10 @@ void summarise_timing(const FrameTable& frames, RunRecord& record) {
     if (!std::string_view(name).ends_with(kSuffix)) continue;
     const std::vector<double> values = frames.column(name);
     const double sum = std::accumulate(values.begin(), values.end(), 0.0);
-    const StageTiming stage{name.substr(0, name.size() - kSuffix.size()), quantile(values, 0.5),
-                            sum / static_cast<double>(values.size()), quantile(values, 0.95),
-                            *std::max_element(values.begin(), values.end())};
+    const StageTiming stage{
+        name.substr(0, name.size() - kSuffix.size()), statistics::quantile(values, 0.5),
+        sum / static_cast<double>(values.size()), statistics::quantile(values, 0.95),
+        *std::max_element(values.begin(), values.end())};
     if (stage.name == "total") {
       record.frame_median_ms = stage.median;
       record.frame_p95_ms = stage.p95;

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "traverse/statistics/quantile.hpp"
+
 namespace traverse::pipeline {
 
 namespace {
@@ -183,12 +185,10 @@ std::string SlamEstimator::gravity_note() const {
     chi2 += level.chi2 / (2 * static_cast<double>(levels.size()));
     rejected += level.is_rejected() ? 1 : 0;
   }
-  const auto middle = sigmas_deg.begin() + static_cast<std::ptrdiff_t>(sigmas_deg.size() / 2);
-  std::nth_element(sigmas_deg.begin(), middle, sigmas_deg.end());
   return fmt::format(
       "{} directions of up by {} (sigma {:.3f} deg, chi-square {:.2f} a degree of freedom, {} "
       "rejected), off by {:.3f} deg in common; {} more have not the length of gravity",
-      levels.size(), imu_, *middle, chi2, rejected,
+      levels.size(), imu_, statistics::median(sigmas_deg), chi2, rejected,
       slam_.graph().up_offset().norm() * 180 / std::numbers::pi, gravity_->turned_away());
 }
 

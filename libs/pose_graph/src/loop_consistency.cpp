@@ -4,6 +4,8 @@
 #include <iterator>
 #include <utility>
 
+#include "traverse/statistics/quantile.hpp"
+
 #include "coarse_edges.hpp"
 #include "least_uncertain_ways.hpp"
 #include "loop_groups.hpp"
@@ -67,9 +69,7 @@ class LoopJudge {
   double excess(const LeastUncertainWays& ways) const {
     std::vector<double> off;
     for (const std::size_t e : loops_) off.push_back(chi2(ways, e));
-    const auto quarter = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 4);
-    std::nth_element(off.begin(), quarter, off.end());
-    return std::max(1.0, *quarter / kLowerQuartile);
+    return std::max(1.0, statistics::element_at_share(off, 0.25) / kLowerQuartile);
   }
 
  private:

@@ -8,6 +8,8 @@
 #include <Eigen/Dense>
 #include <fmt/core.h>
 
+#include "traverse/statistics/quantile.hpp"
+
 #include "level_alignment.hpp"
 #include "residuals.hpp"
 #include "scaling_loss.hpp"
@@ -165,9 +167,7 @@ void PoseGraph::georeference() {
     antennas_enu.push_back(fix.antenna_enu);
     sigmas.push_back(std::sqrt(fix.covariance.topLeftCorner<2, 2>().trace() / 2));
   }
-  const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
-  std::nth_element(sigmas.begin(), middle, sigmas.end());
-  const double spread = options_.least_fix_spread * *middle;
+  const double spread = options_.least_fix_spread * statistics::element_at_share(sigmas, 0.5);
   const auto T_enu_map = level_alignment(antennas_map, antennas_enu, up_map_, spread);
   if (!T_enu_map) return;
   for (geometry::Pose3& T_map_body : poses_) T_map_body = *T_enu_map * T_map_body;

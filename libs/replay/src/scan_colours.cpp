@@ -9,6 +9,7 @@
 #include "traverse/render/colour_map.hpp"
 #include "traverse/render/palette.hpp"
 #include "traverse/render/theme.hpp"
+#include "traverse/statistics/quantile.hpp"
 
 namespace traverse::replay {
 
@@ -25,14 +26,8 @@ struct Span {
   double most = 1;
 };
 
-Span percentiles(std::vector<float> values) {
-  const auto at = [&](double share) {
-    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), values.begin() + rank, values.end());
-    return static_cast<double>(values[static_cast<std::size_t>(rank)]);
-  };
-  const double least = at(kClipped);
-  return {least, at(1 - kClipped)};
+Span percentiles(const std::vector<float>& values) {
+  return {statistics::quantile(values, kClipped), statistics::quantile(values, 1 - kClipped)};
 }
 
 ScanColours grey(std::size_t count, std::string title) {

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "traverse/statistics/quantile.hpp"
+
 #include "html_table.hpp"
 #include "number_text.hpp"
 #include "sections.hpp"
@@ -12,12 +14,6 @@
 namespace traverse::report {
 
 namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// What became of the candidates, with the measures that decided.
 HtmlTable outcomes_table(const std::vector<slam::Loop>& loops) {
@@ -36,7 +32,8 @@ HtmlTable outcomes_table(const std::vector<slam::Loop>& loops) {
       by_appearance += loop->source == slam::LoopSource::kAppearance ? 1 : 0;
     }
     table.add_row({std::string(name_of(verdict)), Cell::count(group.size()),
-                   Cell::count(by_appearance), median(overlap), median(residual), median(chi2)});
+                   Cell::count(by_appearance), statistics::median(overlap),
+                   statistics::median(residual), statistics::median(chi2)});
   }
   return table;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "traverse/statistics/quantile.hpp"
+
 namespace traverse::report {
 
 std::vector<double> seconds_from_start(const RunData& run) {
@@ -64,12 +66,9 @@ std::size_t skipped_records(const nlohmann::json& record) {
   return total;
 }
 
-double percentile_of(std::vector<double> values, double share) {
+double quantile_or_none(const std::vector<double>& values, double share) {
   if (values.empty()) return kNone;
-  const auto rank =
-      static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
+  return statistics::quantile(values, share);
 }
 
 }  // namespace traverse::report

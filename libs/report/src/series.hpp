@@ -39,8 +39,7 @@ Registration registration_of(const pipeline::FrameTable& frames);
 
 std::size_t skipped_records(const nlohmann::json& record);
 
-/// The value of nearest rank below which `share` of the values lie, as run.json has it; NaN
-/// without values.
-double percentile_of(std::vector<double> values, double share);
+/// statistics::quantile(); NaN without values.
+double quantile_or_none(const std::vector<double>& values, double share);
 
 }  // namespace traverse::report

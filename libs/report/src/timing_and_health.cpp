@@ -68,7 +68,7 @@ std::vector<Cell> timing_row(const std::string& name, const nlohmann::json& timi
   const auto of = [&](const char* key) {
     return timing.at(std::string(prefix) + key).get<double>();
   };
-  return {name,     of("median"), mean, of("p95"), percentile_of(frames.column(column), 0.99),
+  return {name,     of("median"), mean, of("p95"), quantile_or_none(frames.column(column), 0.99),
           of("max")};
 }
 

@@ -52,7 +52,7 @@ void add_gap_notice(const RunData& run, std::vector<Notice>& list) {
   std::vector<double> intervals;
   for (std::size_t i = 1; i < stamps.size(); ++i) intervals.push_back(stamps[i] - stamps[i - 1]);
   if (intervals.empty()) return;
-  const double usual = percentile_of(intervals, 0.5);
+  const double usual = quantile_or_none(intervals, 0.5);
   const auto longest = std::max_element(intervals.begin(), intervals.end());
   const auto gaps = std::count_if(intervals.begin(), intervals.end(),
                                   [&](double interval) { return interval > kGap * usual; });

@@ -11,6 +11,7 @@
 #include "traverse/lidar/stopwatch.hpp"
 #include "traverse/optimization/rotation_manifold.hpp"
 #include "traverse/parallel/workers.hpp"
+#include "traverse/statistics/quantile.hpp"
 
 #include "condensed_cost.hpp"
 
@@ -18,11 +19,8 @@ namespace traverse::voxel_map {
 
 namespace {
 
-double median(std::vector<float> values) {
-  if (values.empty()) return 1;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+double usual_range(std::vector<float> ranges) {
+  return ranges.empty() ? 1 : statistics::element_at_share(ranges, 0.5);
 }
 
 /// The information of the matches on the body twist, rotation in units of `scale_m`, a match's
@@ -98,7 +96,7 @@ Alignment align(const SweepSample& sample, const VoxelMap& map, const MotionMode
   Alignment result;
   result.T_map_lidar = guess_T_map_lidar;
   lidar::RegistrationHealth& health = result.health;
-  const double scale_m = median(sample.planar.range);
+  const double scale_m = usual_range(sample.planar.range);
   LocalPoints planar;
   LocalPoints edges;
   matches.forget();

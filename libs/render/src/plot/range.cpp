@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "traverse/statistics/quantile.hpp"
+
 namespace traverse::render {
 
 namespace {
@@ -16,15 +18,7 @@ double percentile_of(std::span<const Number> values, double percent) {
   std::copy_if(values.begin(), values.end(), std::back_inserter(finite),
                [](Number value) { return std::isfinite(value); });
   if (finite.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const double place =
-      std::clamp(percent, 0.0, 100.0) / 100 * static_cast<double>(finite.size() - 1);
-  const auto below = static_cast<std::ptrdiff_t>(place);
-  std::nth_element(finite.begin(), finite.begin() + below, finite.end());
-  const double low = static_cast<double>(finite[static_cast<std::size_t>(below)]);
-  if (below + 1 == static_cast<std::ptrdiff_t>(finite.size())) return low;
-  const double high =
-      static_cast<double>(*std::min_element(finite.begin() + below + 1, finite.end()));
-  return low + (place - static_cast<double>(below)) * (high - low);
+  return statistics::quantile(finite, std::clamp(percent, 0.0, 100.0) / 100);
 }
 
 }  // namespace
