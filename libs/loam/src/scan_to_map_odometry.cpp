@@ -70,7 +70,7 @@ lidar::CorrectedScan ScanToMapOdometry::used_scan(const sensors::LidarScan& scan
                                                   bool with_classes) const {
   const geometry::Twist motion = deskew_note_ == "on" ? velocity : geometry::Twist::Zero();
   return with_classes ? corrected_and_classified(scan, profile_, motion, options_.features)
-                      : corrected(scan, profile_, motion);
+                      : lidar::corrected(scan, profile_, motion);
 }
 
 std::vector<lidar::MatchedPoint> ScanToMapOdometry::matches() const {

@@ -97,7 +97,7 @@ lidar::CorrectedScan TwoStageOdometry::used_scan(const sensors::LidarScan& scan,
                                                  bool with_classes) const {
   const geometry::Twist motion = deskew_note_ == "on" ? velocity : geometry::Twist::Zero();
   return with_classes ? corrected_and_classified(scan, profile_, motion, options_.features)
-                      : corrected(scan, profile_, motion);
+                      : lidar::corrected(scan, profile_, motion);
 }
 
 const std::vector<std::string>& TwoStageOdometry::further_columns() const {

@@ -16,7 +16,7 @@ Matrix36 SweptPoint::derivative(const geometry::Pose3& T_map_lidar) const {
   using geometry::Matrix6;
   const geometry::Twist xi = geometry::log_se3(T_previous_map_ * T_map_lidar);
   const geometry::Twist part = share_ * xi;
-  const lidar::Matrix6 d_point =
+  const Matrix6 d_point =
       geometry::adjoint(geometry::exp_se3(-part)) +
       share_ * geometry::right_jacobian_se3(part) * geometry::right_jacobian_se3(xi).inverse();
   Matrix36 dq;
