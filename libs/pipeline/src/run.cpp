@@ -187,6 +187,7 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
   bool stopped_at_once = false;
   try {
     RunResults results(*pipeline.estimator, source.info(), options, folder);
+    pipeline.estimator->spill_to(folder.path);
     const bool stopped = estimate_all(source, *pipeline.estimator, options, observer, results);
     record.decisions = pipeline.estimator->decisions();  // some are made on the way
     record.north_map = pipeline.estimator->north_map();

@@ -46,6 +46,7 @@ class SlamEstimator final : public Estimator {
                 const SlamEstimatorOptions& options);
 
   const std::vector<std::string>& columns() const override { return columns_; }
+  void spill_to(const std::filesystem::path& folder) override { slam_.spill_to(folder); }
   std::vector<PoseFrame> process(const sensors::Measurement& measurement) override;
   std::vector<PoseFrame> finish() override;
   UsedScan used_scan(const sensors::LidarScan& scan, const PoseFrame& frame,

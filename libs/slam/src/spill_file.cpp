@@ -1,23 +1,22 @@
 #include "spill_file.hpp"
 
-#include <cstdlib>
-#include <string>
+#include <cstddef>
+#include <span>
 #include <type_traits>
-#include <unistd.h>
 #include <vector>
 
-#include "traverse/files/atomic_file.hpp"
-#include "traverse/files/input_error.hpp"
+#include "traverse/slam/keyframe_store.hpp"
 
 namespace traverse::slam {
 
 namespace {
 
-/// Writes the fields of a keyframe to a stream or, the same fields in the same order, reads them.
-/// The bytes are those of memory: no other program and no later run reads them.
-template <typename Stream>
+/// Writes the fields of a keyframe or, the same fields in the same order, reads them. The bytes are
+/// those of memory: no other program and no later run reads them.
+/// \tparam Transfer takes a pointer to bytes, constant ones to write from, and their number
+template <typename Transfer>
 struct Fields {
-  Stream& stream;
+  Transfer transfer;
 
   template <typename Value>
   void value(Value& x) {
@@ -61,54 +60,34 @@ struct Fields {
   }
   template <typename Data>
   void bytes(Data* data, std::size_t count) {
-    const auto size = static_cast<std::streamsize>(count);
-    if constexpr (std::is_same_v<Stream, std::ostream>) {
-      stream.write(reinterpret_cast<const char*>(data), size);
-    } else {
-      stream.read(reinterpret_cast<char*>(data), size);
-    }
+    transfer(data, count);
   }
 };
 
 }  // namespace
 
-SpillFile::SpillFile() {
-  std::string name =
-      (std::filesystem::temp_directory_path() / "traverse-keyframes-XXXXXX").string();
-  const int descriptor = mkstemp(name.data());
-  path_ = name;
-  if (descriptor < 0) throw files::OutputError(path_, "cannot be made for keyframes");
-  close(descriptor);
-  stream_.open(path_, std::ios::in | std::ios::out | std::ios::binary | std::ios::trunc);
-  // The file has no name from here on: it goes when the process does, however that ends.
-  std::error_code ignored;
-  std::filesystem::remove(path_, ignored);
-}
-
-SpillFile::~SpillFile() = default;
+SpillFile::SpillFile(const std::filesystem::path& folder) : file_(folder) {}
 
 std::uint64_t SpillFile::append(const Keyframe& keyframe) {
-  const std::lock_guard lock(mutex_);
-  stream_.clear();
-  stream_.seekp(0, std::ios::end);
-  const auto offset = static_cast<std::uint64_t>(stream_.tellp());
-  Fields<std::ostream>{stream_}.keyframe(keyframe);
-  stream_.flush();
-  if (!stream_) {
-    throw files::OutputError(path_, "keyframes cannot be spilled (is the disk full?)");
-  }
-  return offset;
+  std::vector<std::byte> whole;
+  whole.reserve(bytes_of(keyframe));
+  const auto write = [&](const void* data, std::size_t count) {
+    const auto* bytes = static_cast<const std::byte*>(data);
+    whole.insert(whole.end(), bytes, bytes + count);
+  };
+  Fields{write}.keyframe(keyframe);
+  const parallel::Lock lock(mutex_);
+  return file_.append(whole);
 }
 
 Keyframe SpillFile::read(std::uint64_t offset) {
-  const std::lock_guard lock(mutex_);
-  stream_.clear();
-  stream_.seekg(static_cast<std::streamoff>(offset));
+  const parallel::Lock lock(mutex_);
   Keyframe keyframe;
-  Fields<std::istream>{stream_}.keyframe(keyframe);
-  if (!stream_) {
-    throw files::InputError(path_, files::Place::whole_file(), "a spilled keyframe", "its end");
-  }
+  const auto read = [&](void* data, std::size_t count) {
+    file_.read(offset, {static_cast<std::byte*>(data), count});
+    offset += count;
+  };
+  Fields{read}.keyframe(keyframe);
   return keyframe;
 }
 

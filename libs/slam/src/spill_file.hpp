@@ -2,31 +2,27 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <mutex>
 
+#include "traverse/files/scratch_file.hpp"
+#include "traverse/parallel/mutex.hpp"
 #include "traverse/slam/keyframe.hpp"
 
 namespace traverse::slam {
 
-/// A temporary file of keyframes that is gone with its last user.
+/// Keyframes on disk as long as somebody uses them.
 class SpillFile {
  public:
-  /// \throws files::OutputError if there is no room for temporary files
-  SpillFile();
-  ~SpillFile();
-  SpillFile(const SpillFile&) = delete;
-  SpillFile& operator=(const SpillFile&) = delete;
+  /// \throws files::OutputError if `folder` does not allow a file
+  explicit SpillFile(const std::filesystem::path& folder);
 
   /// \returns where it begins \throws files::OutputError if the disk is full
   std::uint64_t append(const Keyframe& keyframe);
-  /// \throws files::InputError if the file was damaged
+  /// \throws files::OutputError if it cannot be read again
   Keyframe read(std::uint64_t offset);
 
  private:
-  std::mutex mutex_;  // copies of a store may live in different threads
-  std::filesystem::path path_;
-  std::fstream stream_;
+  parallel::Mutex mutex_;  // copies of a store may live in different threads
+  files::ScratchFile file_ TRAVERSE_GUARDED_BY(mutex_);
 };
 
 }  // namespace traverse::slam

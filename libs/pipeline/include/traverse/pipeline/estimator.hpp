@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -56,6 +57,9 @@ class Estimator {
 
   /// Names of the health record's values, with the unit as suffix ("residual_rms_m").
   virtual const std::vector<std::string>& columns() const = 0;
+
+  /// Where it may put what does not fit into memory; else the system's folder for temporary files.
+  virtual void spill_to(const std::filesystem::path& /*folder*/) {}
 
   /// Takes the next measurement. \returns the frames that are now known, in order of time: often
   /// one, none for a measurement that completes no frame, several after a held-back start.

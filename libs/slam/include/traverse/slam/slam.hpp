@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -68,6 +69,9 @@ void bind(config::Binder& binder, SlamOptions& options);
 class Slam {
  public:
   Slam(const SlamOptions& options, const sensors::LidarProfile& profile);
+
+  /// See KeyframeStore::spill_to().
+  void spill_to(const std::filesystem::path& folder) { keyframes_.spill_to(folder); }
 
   /// Whether the frame would become a keyframe; to be asked once for every frame, in order.
   bool wants(const lidar::Frame& frame) { return maker_.observe(frame); }
