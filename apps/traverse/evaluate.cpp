@@ -43,7 +43,8 @@ ESTIMATE and REFERENCE are TUM, KITTI or EuRoC files; KITTI files go by index. T
 those of evo: translation is its trans_part, rotation its rot_part, point-distance-ratio its
 point_distance_error_ratio. Without --relation the table shows translation and angle-deg, without
 --rpe the error over one frame. KITTI drift and path figures are of the estimate as it is, not
-aligned.)";
+aligned. Of trajectories of more than 65,536 poses what does not fit lies in a file without a name
+in $TMPDIR or /tmp, 96 bytes a pose, until the program ends.)";
 
 struct Arguments {
   fs::path estimate;
@@ -162,6 +163,22 @@ void take_frame_of_run(const fs::path& run, evaluation::KittiDriftOptions& optio
   }
 }
 
+void read_into(evaluation::TrajectoryStore& trajectory, const fs::path& file,
+               TrajectoryFormat format) {
+  dataset::read_poses(
+      file, format,
+      [&](const std::optional<geometry::Stamp>& stamp, const geometry::Pose3& T_map_body) {
+        trajectory.push_back(stamp, T_map_body);
+      });
+}
+
+/// The document is written as it is made: in memory it is many times as large as what it tells.
+void write_json(const fs::path& file, const evaluation::Evaluation& evaluation) {
+  files::AtomicFile output(file);
+  evaluation::write_json(evaluation, output.stream());
+  output.commit();
+}
+
 void evaluate(const Arguments& arguments) {
   require_sensible(arguments);
   evaluation::EvaluationOptions options = arguments.options;
@@ -174,14 +191,16 @@ void evaluate(const Arguments& arguments) {
     estimate_file = arguments.estimate / "trajectory.tum";
     take_frame_of_run(arguments.estimate, options.kitti);
   }
-  const auto estimate = dataset::read_trajectory(estimate_file, arguments.format);
-  const auto reference = dataset::read_trajectory(reference_file, arguments.format);
+  evaluation::TrajectoryStore estimate;
+  evaluation::TrajectoryStore reference;
+  read_into(estimate, estimate_file, arguments.format);
+  read_into(reference, reference_file, arguments.format);
   evaluation::Evaluation evaluation = evaluation::evaluate(estimate, reference, options);
   evaluation.estimate.name = estimate_file.string();
   evaluation.comparison->reference.name = reference_file.string();
 
   fmt::print("{}", to_table(evaluation));
-  if (arguments.json) files::write_text(*arguments.json, to_json(evaluation));
+  if (arguments.json) write_json(*arguments.json, evaluation);
   if (arguments.budget) require_kept(report::check_budget(*arguments.budget, evaluation));
 }
 

@@ -9,15 +9,14 @@
 namespace traverse::evaluation {
 
 using geometry::Pose3;
-using geometry::Trajectory;
 
 namespace {
 
 constexpr double kFarthest_m = 1e12;  // squares and sums of positions below it stay finite
 
-void require_finite(const Trajectory& trajectory, const char* which) {
+void require_finite(const TrajectoryView& trajectory, const char* which) {
   for (std::size_t i = 0; i < trajectory.size(); ++i) {
-    const Pose3& pose = trajectory.pose(i);
+    const Pose3 pose = trajectory.poses[i];
     if (!pose.rotation.allFinite() || !(pose.translation.array().abs() < kFarthest_m).all()) {
       throw EvaluationError(
           fmt::format("pose {} of the {} is not finite or beyond {} m", i, which, kFarthest_m));
@@ -25,22 +24,23 @@ void require_finite(const Trajectory& trajectory, const char* which) {
   }
 }
 
-TrajectoryFacts facts_of(const Trajectory& trajectory) {
+TrajectoryFacts facts_of(const TrajectoryView& trajectory) {
   TrajectoryFacts facts;
   facts.poses = trajectory.size();
-  facts.path_m = trajectory.path_length();
-  if (trajectory.is_stamped() && !trajectory.empty()) {
-    facts.first = trajectory.stamps().front();
-    facts.last = trajectory.stamps().back();
+  facts.path_m = path_length(trajectory.poses);
+  if (trajectory.is_stamped && !trajectory.empty()) {
+    facts.first = trajectory.stamps.front();
+    facts.last = trajectory.stamps.back();
   }
   return facts;
 }
 
-std::vector<geometry::Stamp> matched_stamps(const Trajectory& estimate,
+std::vector<geometry::Stamp> matched_stamps(const TrajectoryView& estimate,
                                             const Association& association) {
   std::vector<geometry::Stamp> stamps;
   if (association.mode == AssociationMode::kIndex) return stamps;
-  for (const Match& match : association.matches) stamps.push_back(estimate.stamp(match.estimate));
+  stamps.reserve(association.matches.size());
+  for (const Match& match : association.matches) stamps.push_back(estimate.stamps[match.estimate]);
   return stamps;
 }
 
@@ -56,8 +56,8 @@ void compute_if_defined(const EvaluationOptions& options, const std::string& met
   }
 }
 
-void add_rpe(const std::vector<Pose3>& estimate, const std::vector<Pose3>& reference,
-             const EvaluationOptions& options, Comparison& comparison) {
+void add_rpe(const Poses& estimate, const Poses& reference, const EvaluationOptions& options,
+             Comparison& comparison) {
   for (const RpeOptions& rpe_options : options.rpe) {
     const std::string pairs_text = describe(rpe_options);
     std::vector<IndexPair> pairs;
@@ -102,7 +102,7 @@ EvaluationOptions run_evaluation_options() {
   return options;
 }
 
-Evaluation evaluate(const Trajectory& estimate, const Trajectory& reference,
+Evaluation evaluate(const TrajectoryView& estimate, const TrajectoryView& reference,
                     const EvaluationOptions& options) {
   require_finite(estimate, "estimate");
   require_finite(reference, "reference");
@@ -111,13 +111,13 @@ Evaluation evaluate(const Trajectory& estimate, const Trajectory& reference,
   comparison.association = associate(estimate, reference, options.association);
   comparison.stamps = matched_stamps(estimate, comparison.association);
 
-  const MatchedPoses matched = matched_poses(estimate, reference, comparison.association);
+  const MatchedPoses matched = matched_poses(estimate, reference, comparison.association.matches);
   comparison.distances_m = accumulated_distances(matched.reference);
   comparison.path = path_figures(matched.estimate, matched.reference);
   add_kitti(matched, options.kitti, comparison);
 
   comparison.alignment = align(matched.estimate, matched.reference, options.alignment);
-  const std::vector<Pose3> aligned_estimate = aligned(matched.estimate, comparison.alignment);
+  const Poses aligned_estimate = aligned(matched.estimate, comparison.alignment);
   for (const Relation relation : options.ape_relations) {
     comparison.ape.push_back(ape(aligned_estimate, matched.reference, relation));
   }
@@ -125,7 +125,7 @@ Evaluation evaluate(const Trajectory& estimate, const Trajectory& reference,
   return {facts_of(estimate), std::move(comparison), std::nullopt};
 }
 
-Evaluation evaluate(const Trajectory& estimate) {
+Evaluation evaluate(const TrajectoryView& estimate) {
   require_finite(estimate, "estimate");
   return {facts_of(estimate), std::nullopt, std::nullopt};
 }

@@ -92,6 +92,12 @@ evaluation::Evaluation evaluate_trajectory(const dataset::Source& source,
   return evaluation::evaluate(trajectory);
 }
 
+void write_evaluation(const std::filesystem::path& file, const evaluation::Evaluation& evaluation) {
+  files::AtomicFile output(file);
+  evaluation::write_json(evaluation, output.stream());
+  output.commit();
+}
+
 /// Accuracy against the reference if there is one, and the sharpness of the map in any case; how
 /// the worst frames were registered; accuracy of odometry alone if loops were closed over it.
 void evaluate_run(const dataset::Source& source, RunResults& results, const RunFolder& folder,
@@ -102,14 +108,14 @@ void evaluate_run(const dataset::Source& source, RunResults& results, const RunF
                        *source.reference()->north_map;
   }
   evaluation.consistency = results.consistency();
-  files::write_text(folder.evaluation(), evaluation::to_json(evaluation));
+  write_evaluation(folder.evaluation(), evaluation);
   const dataset::PointCloud worst_frames = results.worst_frames(
       evaluation::worst_segments(evaluation, results.frames().column("residual_rms_m")));
   if (worst_frames.size() > 0) dataset::write_ply(folder.worst_frames(), worst_frames);
   if (!results.odometry()) return;
   evaluation = evaluate_trajectory(source, *results.odometry(), record);
   evaluation.consistency = results.odometry_consistency();
-  files::write_text(folder.odometry_evaluation(), evaluation::to_json(evaluation));
+  write_evaluation(folder.odometry_evaluation(), evaluation);
 }
 
 /// The Jacobians of the factors that the estimator solves with, checked in this very program.

@@ -205,8 +205,9 @@ std::string write_comparison(const std::vector<fs::path>& folders, const fs::pat
   fs::path numbers = page;
   numbers.replace_extension(".json");
   files::write_text(numbers, text_for_script(model.json) + "\n");
-  files::write_text(page, render_page(model.page, "compare",
-                                      {"dygraphs", "moment", "charts", "tables"}, templates));
+  files::write_text(
+      page, render_page(model.page, "compare", {"dygraphs", "moment", "charts", "csv", "tables"},
+                        templates));
   std::string text;
   for (const char* id : {"figures", "differences", "wins"}) {
     text += terminal_table(model.json["tables"][id]);

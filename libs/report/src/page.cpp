@@ -79,7 +79,7 @@ std::string make_page(Model& model, const std::string& packed_points,
   model.page.set("points", packed_points);
   return render_page(model.page, "run",
                      {"three", "orbit_controls", "dygraphs", "moment", "charts", "scene_colours",
-                      "scene_points", "scene_way", "scene_measure", "scene", "tables"},
+                      "scene_points", "scene_way", "scene_measure", "scene", "csv", "tables"},
                      templates);
 }
 

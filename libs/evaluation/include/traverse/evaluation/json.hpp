@@ -1,5 +1,6 @@
 #pragma once
 
+#include <iosfwd>
 #include <string>
 #include <string_view>
 
@@ -40,6 +41,9 @@ namespace traverse::evaluation {
 /// STATS: {"rmse", "mean", "median", "std", "min", "max", "sse", "count"}. Times are seconds,
 /// stamps whole nanoseconds; indices in rpe and kitti count the elements of association.per_pair.
 std::string to_json(const Evaluation& evaluation);
+
+/// The same into a stream, without the whole of it in memory.
+void write_json(const Evaluation& evaluation, std::ostream& stream);
 
 /// Reads it back; to_json() of the result is `text` again.
 /// \throws EvaluationError naming the key that is missing or of another kind.
