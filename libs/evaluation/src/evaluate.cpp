@@ -14,20 +14,20 @@ namespace {
 
 constexpr double kFarthest_m = 1e12;  // squares and sums of positions below it stay finite
 
-void require_finite(const TrajectoryView& trajectory, const char* which) {
+/// Goes through the poses once. \throws EvaluationError if one is not finite
+TrajectoryFacts facts_of(const TrajectoryView& trajectory, const char* which) {
+  TrajectoryFacts facts;
+  facts.poses = trajectory.size();
+  Eigen::Vector3d last;
   for (std::size_t i = 0; i < trajectory.size(); ++i) {
     const Pose3 pose = trajectory.poses[i];
     if (!pose.rotation.allFinite() || !(pose.translation.array().abs() < kFarthest_m).all()) {
       throw EvaluationError(
           fmt::format("pose {} of the {} is not finite or beyond {} m", i, which, kFarthest_m));
     }
+    if (i > 0) facts.path_m += (pose.translation - last).norm();
+    last = pose.translation;
   }
-}
-
-TrajectoryFacts facts_of(const TrajectoryView& trajectory) {
-  TrajectoryFacts facts;
-  facts.poses = trajectory.size();
-  facts.path_m = path_length(trajectory.poses);
   if (trajectory.is_stamped && !trajectory.empty()) {
     facts.first = trajectory.stamps.front();
     facts.last = trajectory.stamps.back();
@@ -104,10 +104,9 @@ EvaluationOptions run_evaluation_options() {
 
 Evaluation evaluate(const TrajectoryView& estimate, const TrajectoryView& reference,
                     const EvaluationOptions& options) {
-  require_finite(estimate, "estimate");
-  require_finite(reference, "reference");
+  const TrajectoryFacts facts = facts_of(estimate, "estimate");
   Comparison comparison;
-  comparison.reference = facts_of(reference);
+  comparison.reference = facts_of(reference, "reference");
   comparison.association = associate(estimate, reference, options.association);
   comparison.stamps = matched_stamps(estimate, comparison.association);
 
@@ -122,12 +121,11 @@ Evaluation evaluate(const TrajectoryView& estimate, const TrajectoryView& refere
     comparison.ape.push_back(ape(aligned_estimate, matched.reference, relation));
   }
   add_rpe(aligned_estimate, matched.reference, options, comparison);
-  return {facts_of(estimate), std::move(comparison), std::nullopt};
+  return {facts, std::move(comparison), std::nullopt};
 }
 
 Evaluation evaluate(const TrajectoryView& estimate) {
-  require_finite(estimate, "estimate");
-  return {facts_of(estimate), std::nullopt, std::nullopt};
+  return {facts_of(estimate, "estimate"), std::nullopt, std::nullopt};
 }
 
 const Ape* find_ape(const Comparison& comparison, Relation relation) {
