@@ -83,7 +83,7 @@ std::string render_page(TemplateData& page, const std::string& page_name,
     list.push_back(entry);
   }
   page.set("scripts", list);
-  page.set("licences", licences(scripts, templates));
+  page.set("libraries", licences(scripts, templates));
 
   const std::filesystem::path file = templates / (page_name + ".html");
   kainjow::mustache::mustache page_template(files::read_text(file));
