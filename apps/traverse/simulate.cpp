@@ -17,7 +17,7 @@
 #include "traverse/config/document.hpp"
 #include "traverse/config/settings.hpp"
 #include "traverse/dataset/recording_writer.hpp"
-#include "traverse/dataset/trajectory_files.hpp"
+#include "traverse/dataset/trajectory_streams.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/simulation/ring_order.hpp"
 #include "traverse/simulation/simulation.hpp"

@@ -27,6 +27,7 @@
 #include "traverse/pipeline/run_folder.hpp"
 
 #include "host_name.hpp"
+#include "run_output.hpp"
 
 namespace traverse::batch {
 
@@ -168,8 +169,12 @@ Completion publish(const fs::path& work, const Job& job, const Completion& compl
 /// What the run has written comes into the folder that its log is in already.
 void take_out_of_its_folder(const fs::path& work) {
   std::error_code failure;
+  std::vector<fs::path> written;
   for (const auto& entry : fs::directory_iterator(work / kRunOutput, failure)) {
-    fs::rename(entry.path(), work / entry.path().filename(), failure);
+    written.push_back(entry.path());
+  }
+  for (const fs::path& path : written) {
+    fs::rename(path, work / path.filename(), failure);
     if (failure) throw files::OutputError(work, failure.message());
   }
   fs::remove(work / kRunOutput, failure);
@@ -242,7 +247,8 @@ std::optional<Completion> execute(const Job& job, const ExecutionContext& contex
     const bool memory_ran_out = end.cause == Cause::kItself && end.signal == SIGKILL &&
                                 out_of_memory_kills() > kills_before;
     if (was_killed(end, status_of(work / kRunOutput), memory_ran_out)) {
-      context.journal.killed(job, end.signal);
+      context.journal.killed(
+          job, end.signal != 0 ? end.signal : std::max(0, end.exit_status - kSignalled));
       if (attempt < job.limits.attempts) continue;
     }
     completion = finish(work, job, end, memory_ran_out, std::move(completion), context.folder);

@@ -15,6 +15,7 @@
 #include "traverse/pipeline/run_record.hpp"
 
 #include "plan_error.hpp"
+#include "run_output.hpp"
 
 namespace traverse::batch {
 

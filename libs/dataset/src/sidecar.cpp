@@ -7,7 +7,7 @@
 
 #include "traverse/config/binder.hpp"
 #include "traverse/config/settings.hpp"
-#include "traverse/dataset/trajectory_files.hpp"
+#include "traverse/dataset/trajectory_streams.hpp"
 #include "traverse/files/numbers.hpp"
 
 #include "recording_files.hpp"

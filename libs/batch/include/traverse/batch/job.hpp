@@ -10,9 +10,6 @@
 
 namespace traverse::batch {
 
-/// Where a run writes to in the folder that it works in: its log stands beside.
-inline constexpr const char* kRunOutput = "run";
-
 /// One run of a plan: a line of the plan's table, what it starts, and who it is.
 struct Job {
   std::string id;        ///< SHA-256 of `identity`, 64 hexadecimal digits
@@ -21,7 +18,7 @@ struct Job {
   std::string pipeline;
   std::vector<std::string> settings;   ///< "solver.huber_m=0.2", of the grid only
   int repeat = 1;                      ///< counted from 1
-  std::vector<std::string> arguments;  ///< of the program: "run", RECORDING, "-o", kRunOutput, ...
+  std::vector<std::string> arguments;  ///< of the program: "run", RECORDING, ...; output is "run"
   RunLimits limits;
 
   /// "floam solver.huber_m=0.2": the pipeline and its point of the grid.
