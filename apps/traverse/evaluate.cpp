@@ -17,13 +17,13 @@
 #include "traverse/dataset/trajectory_files.hpp"
 #include "traverse/evaluation/json.hpp"
 #include "traverse/evaluation/table.hpp"
-#include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/numbers.hpp"
 #include "traverse/files/text_file.hpp"
 
 #include "budget_option.hpp"
 #include "commands.hpp"
+#include "json_output.hpp"
 
 namespace traverse::app {
 
@@ -173,12 +173,6 @@ void read_into(evaluation::TrajectoryStore& trajectory, const fs::path& file,
 }
 
 /// The document is written as it is made: in memory it is many times as large as what it tells.
-void write_json(const fs::path& file, const evaluation::Evaluation& evaluation) {
-  files::AtomicFile output(file);
-  evaluation::write_json(evaluation, output.stream());
-  output.commit();
-}
-
 void evaluate(const Arguments& arguments) {
   require_sensible(arguments);
   evaluation::EvaluationOptions options = arguments.options;
@@ -200,7 +194,10 @@ void evaluate(const Arguments& arguments) {
   evaluation.comparison->reference.name = reference_file.string();
 
   fmt::print("{}", to_table(evaluation));
-  if (arguments.json) write_json(*arguments.json, evaluation);
+  if (arguments.json) {
+    write_json_output(*arguments.json,
+                      [&](std::ostream& stream) { evaluation::write_json(evaluation, stream); });
+  }
   if (arguments.budget) require_kept(report::check_budget(*arguments.budget, evaluation));
 }
 

@@ -18,6 +18,8 @@
 #include "traverse/batch/summary.hpp"
 #include "traverse/files/atomic_file.hpp"
 
+#include "own_folder.hpp"
+
 namespace traverse::batch {
 
 namespace {
@@ -135,6 +137,7 @@ BatchEnd run_batch(Plan plan, const BatchFolder& folder, const BatchOptions& opt
   static const std::atomic<bool> kNever{false};
   const std::atomic<bool>& stop = observer.stop != nullptr ? *observer.stop : kNever;
   if (options.executor == Executor::kLocal) check_this_machine(plan);
+  require_own_folder(folder, plan.text);
   folder.prepare();
   const BatchLock lock(lock_file(folder, options.shard));
   Journal journal(folder.journals());

@@ -15,6 +15,7 @@
 #include "traverse/pipeline/run_record.hpp"
 
 #include "plan_error.hpp"
+#include "run_output.hpp"
 
 namespace traverse::batch {
 
@@ -47,7 +48,7 @@ Variant resolve(const PlannedPipeline& pipeline, std::vector<std::string> point,
 std::vector<std::string> run_arguments(const Plan& plan, const PlannedRecording& recording,
                                        const Variant& variant) {
   // The run works inside its own folder, so that its command holds wherever that is moved to.
-  std::vector<std::string> words{"run", recording.path.string(), "-o", "."};
+  std::vector<std::string> words{"run", recording.path.string(), "-o", kRunOutput};
   const auto add = [&](const char* option, const std::string& value) {
     words.insert(words.end(), {option, value});
   };
