@@ -2,6 +2,8 @@
 
 #include "commands.hpp"
 #include "exit_status.hpp"
+#include "interruption.hpp"
+#include "standard_streams.hpp"
 
 namespace {
 
@@ -17,6 +19,8 @@ constexpr const char* kExamples = R"(Examples:
 }  // namespace
 
 int main(int argc, char** argv) {
+  traverse::app::prepare_standard_streams();
+  traverse::app::end_on_signals();
   CLI::App app{"Traverse: lidar SLAM on recordings, with an accuracy report", "traverse"};
   app.set_version_flag("--version", TRAVERSE_VERSION);
   app.require_subcommand(1);

@@ -4,12 +4,11 @@
 #include <cstring>
 #include <string>
 #include <system_error>
-#include <unistd.h>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "traverse/files/input_error.hpp"
+
+#include "temporary.hpp"
 
 namespace traverse::files {
 
@@ -17,10 +16,6 @@ namespace {
 
 std::string system_reason(int error, std::string_view otherwise) {
   return error == 0 ? std::string(otherwise) : std::string(std::strerror(error));
-}
-
-std::filesystem::path temporary_beside(const std::filesystem::path& path) {
-  return path.parent_path() / fmt::format(".{}.{}.partial", path.filename().string(), ::getpid());
 }
 
 /// "out/" names the same folder as "out".
@@ -31,18 +26,16 @@ std::filesystem::path without_trailing_slash(const std::filesystem::path& path) 
 }  // namespace
 
 AtomicFile::AtomicFile(std::filesystem::path path)
-    : path_(std::move(path)), temporary_(temporary_beside(path_)) {
+    : path_(std::move(path)),
+      temporary_(std::make_unique<Temporary>(Temporary::Kind::kFile, path_)) {
   errno = 0;
-  stream_.open(temporary_, std::ios::binary | std::ios::trunc);
+  stream_.open(temporary_->path(), std::ios::binary | std::ios::trunc);
   if (!stream_) throw OutputError(path_, system_reason(errno, "the file cannot be opened"));
 }
 
-AtomicFile::~AtomicFile() {
-  if (committed_) return;
-  stream_.close();
-  std::error_code ignored;
-  std::filesystem::remove(temporary_, ignored);
-}
+AtomicFile::~AtomicFile() = default;
+
+const std::filesystem::path& AtomicFile::temporary_path() const { return temporary_->path(); }
 
 void AtomicFile::commit() {
   errno = 0;
@@ -54,33 +47,29 @@ void AtomicFile::commit() {
     throw OutputError(path_, system_reason(error, "not every byte was taken (is the disk full?)"));
   }
   std::error_code failure;
-  std::filesystem::rename(temporary_, path_, failure);
+  std::filesystem::rename(temporary_->path(), path_, failure);
   if (failure) throw OutputError(path_, failure.message());
-  committed_ = true;
+  temporary_->keep();
 }
 
-AtomicFolder::AtomicFolder(std::filesystem::path path)
-    : path_(without_trailing_slash(path)), temporary_(temporary_beside(path_)) {
+AtomicFolder::AtomicFolder(std::filesystem::path path) : path_(without_trailing_slash(path)) {
   std::error_code failure;
   if (std::filesystem::exists(path_, failure) && !(std::filesystem::is_directory(path_, failure) &&
                                                    std::filesystem::is_empty(path_, failure))) {
     throw OutputError(path_, "it is there already");
   }
-  std::filesystem::create_directory(temporary_, failure);
-  if (failure) throw OutputError(path_, failure.message());
+  temporary_ = std::make_unique<Temporary>(Temporary::Kind::kFolder, path_);
 }
 
-AtomicFolder::~AtomicFolder() {
-  if (committed_) return;
-  std::error_code ignored;
-  std::filesystem::remove_all(temporary_, ignored);
-}
+AtomicFolder::~AtomicFolder() = default;
+
+const std::filesystem::path& AtomicFolder::temporary_path() const { return temporary_->path(); }
 
 void AtomicFolder::commit() {
   std::error_code failure;
-  std::filesystem::rename(temporary_, path_, failure);  // also over an empty folder
+  std::filesystem::rename(temporary_->path(), path_, failure);  // also over an empty folder
   if (failure) throw OutputError(path_, failure.message());
-  committed_ = true;
+  temporary_->keep();
 }
 
 void write_text(const std::filesystem::path& path, std::string_view text) {

@@ -61,34 +61,31 @@ bool is_there(const fs::path& path) {
   return fs::exists(fs::symlink_status(path, failure));
 }
 
-/// ".run.json.4711.partial": what a killed process left of a file of this name.
-bool is_partial_of(std::string_view name, std::string_view of) {
+/// The name of a file of which a killed process left this: ".run.json.traverse-4711-0.partial", or
+/// ".run.json.4711.partial" of earlier versions. Empty if it is none.
+std::string finished_name(std::string_view name) {
   constexpr std::string_view kEnd = ".partial";
-  if (!name.starts_with('.') || !name.ends_with(kEnd)) return false;
+  if (!name.starts_with('.') || !name.ends_with(kEnd)) return {};
   name.remove_prefix(1);
   name.remove_suffix(kEnd.size());
-  if (!name.starts_with(of)) return false;
-  name.remove_prefix(of.size());
-  return name.size() > 1 && name.front() == '.' &&
-         name.find_first_not_of("0123456789", 1) == std::string_view::npos;
+  const std::size_t dot = name.rfind('.');
+  if (dot == std::string_view::npos) return {};
+  const std::string_view maker = name.substr(dot + 1);
+  const bool is_maker = maker.find_first_not_of("traverse-0123456789") == std::string_view::npos;
+  return is_maker ? std::string(name.substr(0, dot)) : std::string();
 }
 
 bool is_own_file(const RunFolder& folder, const std::string& name) {
   if (name == folder.report_work().filename()) return true;
+  const std::string finished = finished_name(name);
   const auto files = folder.files();
   return std::any_of(files.begin(), files.end(), [&](const fs::path& file) {
-    return name == file.filename() || is_partial_of(name, file.filename().string());
+    return name == file.filename() || finished == file.filename();
   });
 }
 
 bool is_own_picture(const std::string& name) {
-  if (RunFolder::is_picture(name)) return true;
-  constexpr std::string_view kEnd = ".partial";
-  if (!name.starts_with('.') || !name.ends_with(kEnd)) return false;
-  const std::size_t number = name.rfind('.', name.size() - kEnd.size() - 1);
-  if (number == 0 || number == std::string::npos) return false;
-  const std::string picture = name.substr(1, number - 1);
-  return RunFolder::is_picture(picture) && is_partial_of(name, picture);
+  return RunFolder::is_picture(name) || RunFolder::is_picture(finished_name(name));
 }
 
 std::string listed(const fs::path& folder) {
@@ -155,14 +152,22 @@ void take_permissions(const fs::path& from, const fs::path& to) {
   ::chmod(to.c_str(), status.st_mode & 07777U);
 }
 
+/// As some file systems (FUSE, NFS) say it.
 bool cannot_exchange(int error) {
   return error == EINVAL || error == ENOSYS || error == EOPNOTSUPP;
 }
 
-/// Two renames, for file systems that have no exchange: FUSE, NFS.
-void rename_twice(const fs::path& made, const fs::path& place, const fs::path& aside) {
+/// \returns where the earlier run is now
+const fs::path& exchange_names(const fs::path& made, const fs::path& place, const fs::path& aside,
+                               Exchange exchange) {
+  if (exchange == Exchange::kAtOnce) {
+    const bool done =
+        ::renameat2(AT_FDCWD, made.c_str(), AT_FDCWD, place.c_str(), RENAME_EXCHANGE) == 0;
+    if (done) return made;
+    if (!cannot_exchange(errno)) fail(place, errno);
+  }
   if (::rename(place.c_str(), aside.c_str()) != 0) fail(place, errno);
-  if (::rename(made.c_str(), place.c_str()) == 0) return;
+  if (::rename(made.c_str(), place.c_str()) == 0) return aside;
   const int error = errno;
   ::rename(aside.c_str(), place.c_str());
   fail(place, error);
@@ -223,17 +228,18 @@ void replace_run(const fs::path& made, const fs::path& place, const fs::path& as
   if (::rename(made.c_str(), place.c_str()) == 0) return;  // nothing there, or an empty folder
   if (errno != ENOTEMPTY && errno != EEXIST) fail(place, errno);
   // What `report` is just making there would end up among this run's files.
-  const files::WorkFolder no_report(RunFolder{place}.report_work(), place,
-                                    files::WorkFolder::Others::kWaitFor);
+  files::WorkFolder no_report(RunFolder{place}.report_work(), place,
+                              files::WorkFolder::Others::kWaitFor);
   carry_over_foreign(place, made);
-  const bool exchanged =
-      exchange == Exchange::kAtOnce &&
-      ::renameat2(AT_FDCWD, made.c_str(), AT_FDCWD, place.c_str(), RENAME_EXCHANGE) == 0;
-  if (!exchanged && exchange == Exchange::kAtOnce && !cannot_exchange(errno)) fail(place, errno);
-  if (!exchanged) rename_twice(made, place, aside);
-  const fs::path& earlier = exchanged ? made : aside;
-  carry_over_foreign(earlier, place);  // what came meanwhile
-  files::remove_tree(earlier);
+  no_report.keep(true);  // it goes with the earlier run: its name will be another's
+  try {
+    const fs::path& earlier = exchange_names(made, place, aside, exchange);
+    carry_over_foreign(earlier, place);  // what came meanwhile
+    files::remove_tree(earlier);
+  } catch (...) {
+    no_report.keep(false);
+    throw;
+  }
 }
 
 void recover_replacement(const fs::path& made, const fs::path& place, const fs::path& aside) {

@@ -2,12 +2,16 @@
 
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string_view>
 
 namespace traverse::files {
 
+class Temporary;
+
 /// A file that appears whole or not at all: written under a temporary name beside its place and
-/// renamed by commit(). Without commit() nothing is left behind.
+/// renamed by commit(). Without commit() nothing is left behind, by a signal neither
+/// (remove_unfinished), and what a killed program left goes when the next one writes in the folder.
 class AtomicFile {
  public:
   /// Opens the temporary file for binary writing.
@@ -21,7 +25,7 @@ class AtomicFile {
   std::ostream& stream() { return stream_; }
 
   /// The temporary file, for libraries that must open it by name. Close stream() use before.
-  const std::filesystem::path& temporary_path() const { return temporary_; }
+  const std::filesystem::path& temporary_path() const;
 
   /// Flushes, checks that every byte was taken (disk full), and renames.
   /// \throws OutputError naming the path and the system's reason.
@@ -29,13 +33,12 @@ class AtomicFile {
 
  private:
   std::filesystem::path path_;
-  std::filesystem::path temporary_;
-  std::ofstream stream_;
-  bool committed_ = false;
+  std::unique_ptr<Temporary> temporary_;
+  std::ofstream stream_;  ///< closed before the temporary is removed
 };
 
 /// A folder that appears whole or not at all: filled under a temporary name beside its place and
-/// renamed by commit(). Without commit() nothing is left behind.
+/// renamed by commit(). Without commit() nothing is left behind, as of an AtomicFile.
 class AtomicFolder {
  public:
   /// \throws OutputError if `path` is there already and not an empty folder, or if its parent does
@@ -46,15 +49,14 @@ class AtomicFolder {
   AtomicFolder& operator=(const AtomicFolder&) = delete;
 
   /// Where the files go until commit().
-  const std::filesystem::path& temporary_path() const { return temporary_; }
+  const std::filesystem::path& temporary_path() const;
 
   /// \throws OutputError naming the path and the system's reason.
   void commit();
 
  private:
   std::filesystem::path path_;
-  std::filesystem::path temporary_;
-  bool committed_ = false;
+  std::unique_ptr<Temporary> temporary_;
 };
 
 /// Writes `text` as the whole of `path`, atomically. \throws OutputError
