@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "traverse/batch/job.hpp"
 #include "traverse/batch/metric.hpp"
 #include "traverse/batch/run_process.hpp"
 #include "traverse/files/atomic_file.hpp"
@@ -33,9 +34,11 @@ using Cause = ProcessEnd::Cause;
 
 constexpr std::size_t kLastLines = 20;
 constexpr std::size_t kLongestLine = 400;
+constexpr const char* kLog = "log.txt";
 constexpr const char* kPartial = ".partial";
 
-/// ".0123456789abcdef.host.4711.partial"
+/// ".0123456789abcdef.host.4711.partial", with the log and, in a folder of its own, what the run
+/// writes: `traverse run` takes none in which there is anything.
 fs::path work_folder(const BatchFolder& folder, const Job& job) {
   return folder.runs() / fmt::format(".{}.{}.{}{}", BatchFolder::run_name(job.id), host_name(),
                                      ::getpid(), kPartial);
@@ -122,9 +125,9 @@ void judge(const Job& job, const ProcessEnd& end, bool memory_ran_out, Completio
   }
 }
 
-void add_results(const fs::path& work, Completion& completion) {
-  const pipeline::RunFolder run{work};
-  completion.metrics = read_metrics(work);
+void add_results(const fs::path& folder, Completion& completion) {
+  const pipeline::RunFolder run{folder};
+  completion.metrics = read_metrics(folder);
   for (const auto& [name, value] :
        {MetricValue{"wall_s", completion.wall_s}, MetricValue{"cpu_s", completion.cpu_s},
         MetricValue{"peak_memory_mb", completion.peak_memory_mb}}) {
@@ -136,44 +139,55 @@ void add_results(const fs::path& work, Completion& completion) {
   }
 }
 
-/// Gives the run its name. \returns the record that stands there: another process may have been
+/// Gives the run its name, with the log in it. \returns the record that stands there: another process may have been
 /// faster with the same run.
-Completion publish(const fs::path& work, const Job& job, const Completion& completion,
+Completion publish(const fs::path& run, const Job& job, const Completion& completion,
                    const BatchFolder& folder) {
   const fs::path place = folder.run(job.id);
   std::error_code failure;
-  fs::rename(work, place, failure);
+  fs::rename(run, place, failure);
   if (!failure) return completion;
   const auto there = find_completion(folder.completion(job.id));
-  if (there && !is_outdated(*there, job)) {
-    fs::remove_all(work, failure);
-    return *there;
-  }
+  if (there && !is_outdated(*there, job)) return *there;
   discard(folder, job);
-  fs::rename(work, place, failure);
+  fs::rename(run, place, failure);
   if (failure) throw files::OutputError(place, failure.message());
   return completion;
 }
 
+/// What the run wrote, with its log. A run that crashed may have written nothing.
+fs::path put_together(const fs::path& work) {
+  const fs::path run = work / kRunInWork;
+  std::error_code failure;
+  fs::create_directory(run, failure);
+  if (!failure) fs::rename(work / kLog, run / kLog, failure);
+  if (failure) throw files::OutputError(run, failure.message());
+  return run;
+}
+
 Completion finish(const fs::path& work, const Job& job, const ProcessEnd& end, bool memory_ran_out,
                   Completion completion, const BatchFolder& folder) {
+  const fs::path run = put_together(work);
   completion.exit_status = end.exit_status;
   completion.signal = end.signal;
   completion.wall_s = end.wall_s;
   completion.cpu_s = end.cpu_s;
   completion.peak_memory_mb = end.peak_memory_mb;
-  completion.last_lines = last_lines(work / "log.txt");
+  completion.last_lines = last_lines(run / kLog);
   judge(job, end, memory_ran_out, completion);
   if (completion.outcome == Outcome::kOk) completion.last_lines.clear();
-  add_results(work, completion);
-  files::write_text(work / "result.json", to_json(completion));
-  return publish(work, job, completion, folder);
+  add_results(run, completion);
+  files::write_text(run / "result.json", to_json(completion));
+  completion = publish(run, job, completion, folder);
+  std::error_code ignored;
+  fs::remove_all(work, ignored);
+  return completion;
 }
 
 }  // namespace
 
 fs::path log_in_work(const BatchFolder& folder, const Job& job) {
-  return work_folder(folder, job) / "log.txt";
+  return work_folder(folder, job) / kLog;
 }
 
 std::optional<Completion> execute(const Job& job, const ExecutionContext& context) {
@@ -187,7 +201,7 @@ std::optional<Completion> execute(const Job& job, const ExecutionContext& contex
     begin_empty(work);
     completion.attempts = attempt;
     completion.started_utc = pipeline::utc_now();
-    ProcessStart start{context.program, job.arguments, work, work / "log.txt"};
+    ProcessStart start{context.program, job.arguments, work, work / kLog};
     start.time_limit_s = job.limits.time_s;
     start.memory_limit_mb = job.limits.memory_mb;
     start.started = [&](int pid) { context.journal.started(job, pid, attempt); };
@@ -200,7 +214,7 @@ std::optional<Completion> execute(const Job& job, const ExecutionContext& contex
     }
     const bool memory_ran_out = end.cause == Cause::kItself && end.signal == SIGKILL &&
                                 out_of_memory_kills() > kills_before;
-    if (was_killed(end, status_of(work), memory_ran_out)) {
+    if (was_killed(end, status_of(work / kRunInWork), memory_ran_out)) {
       context.journal.killed(job, end.signal);
       if (attempt < job.limits.attempts) continue;
     }

@@ -120,6 +120,10 @@ fs::path RunDestination::place(Outcome outcome, bool force) const {
   const bool may_replace = outcome == Outcome::kComplete || force;
   if (found == Kind::kNothing || found == Kind::kNoPoses) return given_;
   if (found == Kind::kRun && may_replace) return given_;
+  return free_place_beside();
+}
+
+fs::path RunDestination::free_place_beside() const {
   for (int number = 1; number < kMostBeside; ++number) {
     const FoundInPlace there = look_at_place(beside(number));
     if (there.kind != Kind::kForeign && !there.is_complete) return beside(number);
@@ -128,20 +132,34 @@ fs::path RunDestination::place(Outcome outcome, bool force) const {
 }
 
 RunFolder RunDestination::finish(Outcome outcome, bool force) {
-  const fs::path shown = place(outcome, force);
-  const fs::path folder = shown == given_ ? folder_ : without_links(shown);
+  fs::path shown = place(outcome, force);
+  if (shown == given_) {
+    try {
+      give_name(folder_, given_);
+      return {given_};
+    } catch (const files::OutputError& error) {
+      why_beside_ = error.what();  // rather beside its place than lost
+      shown = free_place_beside();
+    }
+  }
+  give_name(without_links(shown), shown);
+  return {shown};
+}
+
+void RunDestination::give_name(const fs::path& folder, const fs::path& shown) {
   // Somebody's own run may be on its way to the other name.
   std::unique_ptr<files::WorkFolder> other;
   if (folder != folder_) other = std::make_unique<files::WorkFolder>(work_beside(folder), shown);
+  const fs::path earlier = work_->path() / "earlier";
   work_->keep(true);  // for a moment an earlier run may be in it
   try {
-    replace_run(made_.path, folder, work_->path() / "earlier");
+    replace_run(made_.path, folder, earlier);
   } catch (...) {
-    work_->keep(fs::exists(work_->path() / "earlier"));
+    work_->keep(fs::exists(earlier));
     throw;
   }
+  work_->keep(false);
   work_.reset();
-  return {shown};
 }
 
 std::string RunDestination::in_words(std::string text, const fs::path& place) const {

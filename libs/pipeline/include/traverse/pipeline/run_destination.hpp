@@ -48,9 +48,13 @@ class RunDestination {
   /// run; NAME.interrupted.2 and so on if something else is there.
   std::filesystem::path place(Outcome outcome, bool force) const;
 
-  /// Gives the run its name. \returns where it stands
-  /// \throws files::OutputError if that is not possible; the earlier run is as it was
+  /// Gives the run its name. \returns where it stands: at place(), or, if an earlier run there could
+  /// not be replaced, beside it
+  /// \throws files::OutputError if that is not possible either; the earlier run is as it was
   RunFolder finish(Outcome outcome, bool force);
+
+  /// Why finish() could not replace the earlier run; empty if it could or should not.
+  const std::string& why_beside() const { return why_beside_; }
 
   /// Whether an earlier run with poses stands at the destination.
   bool has_earlier_run() const;
@@ -64,11 +68,14 @@ class RunDestination {
 
  private:
   std::filesystem::path beside(int number) const;
+  std::filesystem::path free_place_beside() const;
+  void give_name(const std::filesystem::path& folder, const std::filesystem::path& shown);
 
   std::filesystem::path given_;
   std::filesystem::path folder_;  ///< the same, absolute and without links
   std::unique_ptr<files::WorkFolder> work_;
   RunFolder made_;
+  std::string why_beside_;
 };
 
 }  // namespace traverse::pipeline
