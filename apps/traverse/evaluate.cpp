@@ -17,13 +17,13 @@
 #include "traverse/dataset/trajectory_files.hpp"
 #include "traverse/evaluation/json.hpp"
 #include "traverse/evaluation/table.hpp"
-#include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/numbers.hpp"
 #include "traverse/files/text_file.hpp"
 
 #include "budget_option.hpp"
 #include "commands.hpp"
+#include "json_output.hpp"
 
 namespace traverse::app {
 
@@ -181,7 +181,7 @@ void evaluate(const Arguments& arguments) {
   evaluation.comparison->reference.name = reference_file.string();
 
   fmt::print("{}", to_table(evaluation));
-  if (arguments.json) files::write_text(*arguments.json, to_json(evaluation));
+  if (arguments.json) write_json_output(*arguments.json, to_json(evaluation));
   if (arguments.budget) require_kept(report::check_budget(*arguments.budget, evaluation));
 }
 

@@ -1,12 +1,10 @@
 #include "exit_status.hpp"
 
-#include <cstdio>
-#include <exception>
-#include <new>
+#include <string>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
+#include "error_text.hpp"
 #include "interruption.hpp"
 #include "standard_streams.hpp"
 
@@ -34,29 +32,6 @@ int status_of_command(CLI::App& app, int argc, char** argv) {
   return 0;
 }
 
-/// Where nothing but the sentence is left to be done, and little may be allocated.
-constexpr const char* kNoMemory =
-    "out of memory: the system gave no more while the command was at work. Close other programs, "
-    "or give it less at a time (--first and --last, fewer --threads, a coarser --set ...)";
-
-/// Tells what is being thrown.
-void tell_error(const CLI::App& app) {
-  try {
-    throw;
-  } catch (const std::bad_alloc&) {
-    print_message("traverse: {}\n", kNoMemory);
-  } catch (const std::length_error& error) {
-    print_message("traverse: {}\n", kNoMemory);
-  } catch (const nlohmann::json::exception& error) {
-    print_message(
-        "traverse: {}: a JSON file that was read is not as this program writes it ({}). Make it "
-        "anew with the command that wrote it\n",
-        name_of_command(app), error.what());
-  } catch (const std::exception& error) {
-    print_message("traverse: {}\n", error.what());
-  }
-}
-
 }  // namespace
 
 int exit_status(CLI::App& app, int argc, char** argv) {
@@ -72,7 +47,7 @@ int exit_status(CLI::App& app, int argc, char** argv) {
     wait_if_ending();
     require_printed();
   } catch (...) {
-    tell_error(app);
+    print_message("traverse: {}\n", error_text(name_of_command(app)));
     return kFailure;
   }
   return status;

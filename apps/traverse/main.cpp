@@ -14,7 +14,8 @@ constexpr const char* kExamples = R"(Examples:
   traverse compare RUN OTHER_RUN                   what is better, and whether that is sure
   traverse convert DRIVE drive.rawlog              for MRPT's own tools
 
-`traverse COMMAND --help` explains a command. Exit status: 0 done, 1 failed, 2 wrong usage.)";
+`traverse COMMAND --help` explains a command. Exit status: 0 done, 1 failed, 2 wrong usage, 130 ended by
+Ctrl-C, 143 by SIGTERM.)";
 
 }  // namespace
 

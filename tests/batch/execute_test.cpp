@@ -59,7 +59,7 @@ class Execute : public ::testing::Test {
 };
 
 TEST_F(Execute, AFinishedRunHasItsNameItsRecordAndNothingElseIsLeft) {
-  const Job good = job("good", "mkdir run; echo '1 2 3' > run/trajectory.tum; echo hello");
+  const Job good = job("good", "echo '1 2 3' > trajectory.tum; echo hello");
   const auto completion = run(good);
   ASSERT_TRUE(completion);
   EXPECT_EQ(completion->outcome, Outcome::kOk);
@@ -115,9 +115,9 @@ TEST_F(Execute, ARunThatEndedInOrderOnARequestIsBegunAgain) {
   const std::string marker = (temporary_ / "marker").string();
   const auto completion =
       run(job("asked", "[ -e " + marker +
-                           " ] && { mkdir run; echo '{\"status\": \"ok\"}' > run/run.json; exit 0; }; "
+                           " ] && { echo '{\"status\": \"ok\"}' > run.json; exit 0; }; "
                            "touch " +
-                           marker + "; mkdir run; echo '{\"status\": \"interrupted\"}' > run/run.json; exit 130"));
+                           marker + "; echo '{\"status\": \"interrupted\"}' > run.json"));
   EXPECT_EQ(completion->attempts, 2);
 }
 

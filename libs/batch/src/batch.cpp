@@ -135,6 +135,7 @@ BatchEnd run_batch(Plan plan, const BatchFolder& folder, const BatchOptions& opt
   static const std::atomic<bool> kNever{false};
   const std::atomic<bool>& stop = observer.stop != nullptr ? *observer.stop : kNever;
   if (options.executor == Executor::kLocal) check_this_machine(plan);
+  folder.require_own(plan.text);
   folder.prepare();
   const BatchLock lock(lock_file(folder, options.shard));
   Journal journal(folder.journals());

@@ -1,11 +1,14 @@
 #include "traverse/batch/execute.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <deque>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <unistd.h>
 #include <vector>
@@ -13,13 +16,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "traverse/batch/job.hpp"
 #include "traverse/batch/metric.hpp"
 #include "traverse/batch/run_process.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/digest.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/numbers.hpp"
+#include "traverse/files/unfinished.hpp"
 #include "traverse/pipeline/provenance.hpp"
 #include "traverse/pipeline/run_folder.hpp"
 
@@ -34,11 +37,12 @@ using Cause = ProcessEnd::Cause;
 
 constexpr std::size_t kLastLines = 20;
 constexpr std::size_t kLongestLine = 400;
-constexpr const char* kLog = "log.txt";
 constexpr const char* kPartial = ".partial";
+constexpr const char* kDiscarded = ".discarded";
+constexpr std::array kAskedToEnd{SIGINT, SIGTERM, SIGHUP};
+constexpr int kSignalled = 128;  // and the signal: a run that was asked to end has done so
 
-/// ".0123456789abcdef.host.4711.partial", with the log and, in a folder of its own, what the run
-/// writes: `traverse run` takes none in which there is anything.
+/// ".0123456789abcdef.host.4711.partial"
 fs::path work_folder(const BatchFolder& folder, const Job& job) {
   return folder.runs() / fmt::format(".{}.{}.{}{}", BatchFolder::run_name(job.id), host_name(),
                                      ::getpid(), kPartial);
@@ -96,8 +100,11 @@ std::string message_of(const std::vector<std::string>& lines) {
 bool was_killed(const ProcessEnd& end, const RunStatus& status, bool memory_ran_out) {
   if (end.cause != Cause::kItself) return false;
   if (end.signal == SIGKILL) return !memory_ran_out;
-  return end.signal == SIGTERM || end.signal == SIGINT || end.signal == SIGHUP ||
-         status.status == "interrupted";  // it ends in order on SIGTERM
+  return std::any_of(kAskedToEnd.begin(), kAskedToEnd.end(),
+                     [&](int signal) {
+                       return end.signal == signal || end.exit_status == kSignalled + signal;
+                     }) ||
+         status.status == "interrupted";
 }
 
 void judge(const Job& job, const ProcessEnd& end, bool memory_ran_out, Completion& completion) {
@@ -108,7 +115,7 @@ void judge(const Job& job, const ProcessEnd& end, bool memory_ran_out, Completio
   } else if (end.cause == Cause::kMemoryLimit) {
     completion.outcome = Outcome::kOutOfMemory;
     completion.reason = fmt::format("more than {:g} MB", job.limits.memory_mb);
-  } else if (memory_ran_out || message.find("std::bad_alloc") != std::string::npos) {
+  } else if (memory_ran_out || message.find("out of memory") != std::string::npos) {
     completion.outcome = Outcome::kOutOfMemory;
     completion.reason = "the machine had no more memory";
   } else if (end.signal != 0) {
@@ -125,9 +132,9 @@ void judge(const Job& job, const ProcessEnd& end, bool memory_ran_out, Completio
   }
 }
 
-void add_results(const fs::path& folder, Completion& completion) {
-  const pipeline::RunFolder run{folder};
-  completion.metrics = read_metrics(folder);
+void add_results(const fs::path& work, Completion& completion) {
+  const pipeline::RunFolder run{work};
+  completion.metrics = read_metrics(work);
   for (const auto& [name, value] :
        {MetricValue{"wall_s", completion.wall_s}, MetricValue{"cpu_s", completion.cpu_s},
         MetricValue{"peak_memory_mb", completion.peak_memory_mb}}) {
@@ -139,59 +146,79 @@ void add_results(const fs::path& folder, Completion& completion) {
   }
 }
 
-/// Gives the run its name, with the log in it. \returns the record that stands there: another process may have been
+/// Gives the run its name. \returns the record that stands there: another process may have been
 /// faster with the same run.
-Completion publish(const fs::path& run, const Job& job, const Completion& completion,
+Completion publish(const fs::path& work, const Job& job, const Completion& completion,
                    const BatchFolder& folder) {
   const fs::path place = folder.run(job.id);
   std::error_code failure;
-  fs::rename(run, place, failure);
+  fs::rename(work, place, failure);
   if (!failure) return completion;
   const auto there = find_completion(folder.completion(job.id));
-  if (there && !is_outdated(*there, job)) return *there;
+  if (there && !is_outdated(*there, job)) {
+    fs::remove_all(work, failure);
+    return *there;
+  }
   discard(folder, job);
-  fs::rename(run, place, failure);
+  fs::rename(work, place, failure);
   if (failure) throw files::OutputError(place, failure.message());
   return completion;
 }
 
-/// What the run wrote, with its log. A run that crashed may have written nothing.
-fs::path put_together(const fs::path& work) {
-  const fs::path run = work / kRunInWork;
+/// What the run has written comes into the folder that its log is in already.
+void take_out_of_its_folder(const fs::path& work) {
   std::error_code failure;
-  fs::create_directory(run, failure);
-  if (!failure) fs::rename(work / kLog, run / kLog, failure);
-  if (failure) throw files::OutputError(run, failure.message());
-  return run;
+  for (const auto& entry : fs::directory_iterator(work / kRunOutput, failure)) {
+    fs::rename(entry.path(), work / entry.path().filename(), failure);
+    if (failure) throw files::OutputError(work, failure.message());
+  }
+  fs::remove(work / kRunOutput, failure);
 }
 
 Completion finish(const fs::path& work, const Job& job, const ProcessEnd& end, bool memory_ran_out,
                   Completion completion, const BatchFolder& folder) {
-  const fs::path run = put_together(work);
   completion.exit_status = end.exit_status;
   completion.signal = end.signal;
   completion.wall_s = end.wall_s;
   completion.cpu_s = end.cpu_s;
   completion.peak_memory_mb = end.peak_memory_mb;
-  completion.last_lines = last_lines(run / kLog);
+  take_out_of_its_folder(work);
+  completion.last_lines = last_lines(work / "log.txt");
   judge(job, end, memory_ran_out, completion);
   if (completion.outcome == Outcome::kOk) completion.last_lines.clear();
-  add_results(run, completion);
-  files::write_text(run / "result.json", to_json(completion));
-  completion = publish(run, job, completion, folder);
-  std::error_code ignored;
-  fs::remove_all(work, ignored);
-  return completion;
+  add_results(work, completion);
+  files::write_text(work / "result.json", to_json(completion));
+  return publish(work, job, completion, folder);
+}
+
+/// The process of this host that a folder of such a name belongs to; nothing for any other name.
+std::optional<std::int64_t> maker_of(std::string_view name) {
+  constexpr std::size_t kDigits = 16;
+  const auto take = [&](std::string_view end) {
+    if (!name.ends_with(end)) return false;
+    name.remove_suffix(end.size());
+    return true;
+  };
+  if (!take(kPartial)) return std::nullopt;
+  if (take(kDiscarded) && !take(kPartial)) return std::nullopt;
+  const std::string ours = "." + host_name() + ".";
+  if (name.size() < 1 + kDigits || name[0] != '.') return std::nullopt;
+  const std::string_view id = name.substr(1, kDigits);
+  if (id.find_first_not_of("0123456789abcdef") != std::string_view::npos) return std::nullopt;
+  name.remove_prefix(1 + kDigits);
+  if (!name.starts_with(ours)) return std::nullopt;
+  return files::parse_integer(name.substr(ours.size()));
 }
 
 }  // namespace
 
 fs::path log_in_work(const BatchFolder& folder, const Job& job) {
-  return work_folder(folder, job) / kLog;
+  return work_folder(folder, job) / "log.txt";
 }
 
 std::optional<Completion> execute(const Job& job, const ExecutionContext& context) {
   const fs::path work = work_folder(context.folder, job);
+  const files::Unfinished unfinished(work);
   Completion completion;
   completion.id = job.id;
   completion.identity = job.identity;
@@ -201,7 +228,7 @@ std::optional<Completion> execute(const Job& job, const ExecutionContext& contex
     begin_empty(work);
     completion.attempts = attempt;
     completion.started_utc = pipeline::utc_now();
-    ProcessStart start{context.program, job.arguments, work, work / kLog};
+    ProcessStart start{context.program, job.arguments, work, work / "log.txt"};
     start.time_limit_s = job.limits.time_s;
     start.memory_limit_mb = job.limits.memory_mb;
     start.started = [&](int pid) { context.journal.started(job, pid, attempt); };
@@ -214,7 +241,7 @@ std::optional<Completion> execute(const Job& job, const ExecutionContext& contex
     }
     const bool memory_ran_out = end.cause == Cause::kItself && end.signal == SIGKILL &&
                                 out_of_memory_kills() > kills_before;
-    if (was_killed(end, status_of(work / kRunInWork), memory_ran_out)) {
+    if (was_killed(end, status_of(work / kRunOutput), memory_ran_out)) {
       context.journal.killed(job, end.signal);
       if (attempt < job.limits.attempts) continue;
     }
@@ -226,7 +253,7 @@ std::optional<Completion> execute(const Job& job, const ExecutionContext& contex
 
 void discard(const BatchFolder& folder, const Job& job) {
   // First out of the way by one rename: a folder that is half removed must not look finished.
-  const fs::path aside = work_folder(folder, job).string() + ".discarded" + kPartial;
+  const fs::path aside = work_folder(folder, job).string() + kDiscarded + kPartial;
   std::error_code failure;
   fs::remove_all(aside, failure);
   fs::rename(folder.run(job.id), aside, failure);
@@ -238,14 +265,9 @@ void discard(const BatchFolder& folder, const Job& job) {
 void remove_abandoned(const BatchFolder& folder) {
   std::error_code failure;
   for (const auto& entry : fs::directory_iterator(folder.runs(), failure)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with('.') || !name.ends_with(kPartial)) continue;
-    const std::string ours = "." + host_name() + ".";
-    const std::size_t at = name.find(ours);
-    if (at == std::string::npos) continue;
-    const std::size_t digits = at + ours.size();
-    const auto pid = files::parse_integer(name.substr(digits, name.find('.', digits) - digits));
-    const bool alive = pid && *pid != ::getpid() && ::kill(static_cast<pid_t>(*pid), 0) == 0;
+    const auto pid = maker_of(entry.path().filename().string());
+    if (!pid) continue;
+    const bool alive = *pid != ::getpid() && ::kill(static_cast<pid_t>(*pid), 0) == 0;
     if (!alive) fs::remove_all(entry.path(), failure);
   }
 }

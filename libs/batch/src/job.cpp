@@ -46,8 +46,8 @@ Variant resolve(const PlannedPipeline& pipeline, std::vector<std::string> point,
 
 std::vector<std::string> run_arguments(const Plan& plan, const PlannedRecording& recording,
                                        const Variant& variant) {
-  // In a folder of its own (execute.cpp), so that its command holds wherever that is.
-  std::vector<std::string> words{"run", recording.path.string(), "-o", kRunInWork};
+  // The run works inside its own folder, so that its command holds wherever that is moved to.
+  std::vector<std::string> words{"run", recording.path.string(), "-o", kRunOutput};
   const auto add = [&](const char* option, const std::string& value) {
     words.insert(words.end(), {option, value});
   };

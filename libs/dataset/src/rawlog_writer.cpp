@@ -11,11 +11,11 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include "traverse/dataset/recording_writer.hpp"
-#include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 
 #include "gz_stream.hpp"
 #include "mrpt_values.hpp"
+#include "recording_files.hpp"
 #include "scan_completion.hpp"
 #include "sidecar.hpp"
 
@@ -148,8 +148,8 @@ class RawlogWriter : public RecordingWriter {
   RawlogWriter(const fs::path& file, const RecordingInfo& info,
                const std::optional<Reference>& reference, const RawlogOptions& options)
       : file_(file),
-        output_(file),
-        stream_(output_.temporary_path(), options.gzip_level),
+        files_(RecordingFiles::beside(file, options.there)),
+        stream_(files_.add_data().temporary_path(), options.gzip_level),
         info_(info) {
     if (!reference) return;
     sidecar_.reference = reference->T_map_body;
@@ -158,6 +158,10 @@ class RawlogWriter : public RecordingWriter {
 
   void add(const sensors::Measurement& measurement) override {
     std::visit([this](const auto& held) { write(held); }, measurement);
+  }
+
+  void add_file(const std::string& name, const std::string& text) override {
+    files_.write(name, text);
   }
 
   void commit() override {
@@ -175,12 +179,7 @@ class RawlogWriter : public RecordingWriter {
     if (const auto* wheels = info_.rig.first(sensors::SensorKind::kWheels)) {
       sidecar_.wheels = *wheels;  // MRPT's odometry has no mounting
     }
-    const auto beside = [&](const char* extension) {
-      return fs::path(file_).replace_extension(extension);
-    };
-    write_sidecar(sidecar_,
-                  {beside(".traverse.yaml"), beside(".reference.tum"), beside(".calib.txt")});
-    output_.commit();
+    commit_with_sidecar(sidecar_, files_);
   }
 
  private:
@@ -230,7 +229,7 @@ class RawlogWriter : public RecordingWriter {
   }
 
   fs::path file_;
-  files::AtomicFile output_;
+  RecordingFiles files_;
   GzOutput stream_;
   const RecordingInfo& info_;
   Sidecar sidecar_;

@@ -209,19 +209,23 @@ Trajectory read_trajectory(const std::filesystem::path& file, TrajectoryFormat f
   return trajectory;
 }
 
-void write_tum(const std::filesystem::path& file, const Trajectory& T_map_body) {
+void write_tum(std::ostream& stream, const Trajectory& T_map_body) {
   require_ordered_stamps(T_map_body, "TUM");
   require_poses(T_map_body);
-  files::AtomicFile output(file);
   for (std::size_t i = 0; i < T_map_body.size(); ++i) {
     const Eigen::Vector3d& t = T_map_body.pose(i).translation;
     const Eigen::Quaterniond q = quaternion_of(T_map_body.pose(i).rotation);
-    output.stream() << to_text(T_map_body.stamp(i));
+    stream << to_text(T_map_body.stamp(i));
     for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) {
-      output.stream() << ' ' << files::to_text(value);
+      stream << ' ' << files::to_text(value);
     }
-    output.stream() << '\n';
+    stream << '\n';
   }
+}
+
+void write_tum(const std::filesystem::path& file, const Trajectory& T_map_body) {
+  files::AtomicFile output(file);
+  write_tum(output.stream(), T_map_body);
   output.commit();
 }
 
@@ -242,17 +246,21 @@ void write_euroc(const std::filesystem::path& file, const Trajectory& T_map_body
   output.commit();
 }
 
-void write_kitti(const std::filesystem::path& file, const Trajectory& T_map_body) {
+void write_kitti(std::ostream& stream, const Trajectory& T_map_body) {
   require_poses(T_map_body);
-  files::AtomicFile output(file);
   for (const Pose3& pose : T_map_body.poses()) {
     for (Eigen::Index row = 0; row < 3; ++row) {
       for (Eigen::Index column = 0; column < 3; ++column) {
-        output.stream() << files::to_text(pose.rotation(row, column)) << ' ';
+        stream << files::to_text(pose.rotation(row, column)) << ' ';
       }
-      output.stream() << files::to_text(pose.translation[row]) << (row < 2 ? ' ' : '\n');
+      stream << files::to_text(pose.translation[row]) << (row < 2 ? ' ' : '\n');
     }
   }
+}
+
+void write_kitti(const std::filesystem::path& file, const Trajectory& T_map_body) {
+  files::AtomicFile output(file);
+  write_kitti(output.stream(), T_map_body);
   output.commit();
 }
 

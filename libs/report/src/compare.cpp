@@ -9,6 +9,7 @@
 
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
+#include "traverse/files/text_file.hpp"
 #include "traverse/pipeline/run_folder.hpp"
 #include "traverse/render/pictures/trajectory_from_above.hpp"
 #include "traverse/render/renderer.hpp"
@@ -168,11 +169,32 @@ std::string terminal_table(const Json& table) {
   return text + "\n";
 }
 
+/// The page and its numbers are replaced only where an earlier comparison stands.
+void require_own(const fs::path& page, const fs::path& numbers) {
+  std::error_code failure;
+  if (fs::is_regular_file(page, failure)) {
+    const std::string text = files::read_text(page);
+    const auto generator = text.find("name=\"generator\" content=\"Traverse");
+    if (generator != std::string::npos) return;
+    throw files::OutputError(page,
+                             "it is there already and no page of this program. Choose another name "
+                             "with -o");
+  }
+  if (fs::is_regular_file(numbers, failure)) {
+    throw files::OutputError(numbers,
+                             "it is there already, without a page of this program beside "
+                             "it. Choose another name with -o");
+  }
+}
+
 }  // namespace
 
 std::string write_comparison(const std::vector<fs::path>& folders, const fs::path& page,
                              const fs::path& templates, const CompareOptions& options) {
   if (folders.size() < 2) throw std::invalid_argument("a comparison needs two runs or more");
+  fs::path numbers = page;
+  numbers.replace_extension(".json");
+  require_own(page, numbers);
   const std::vector<ComparedRun> runs = read_runs(folders);
   Model model;
   model.json["schema"] = "traverse/comparison/1";
@@ -202,11 +224,11 @@ std::string write_comparison(const std::vector<fs::path>& folders, const fs::pat
   model.page.set("overlay_dark", dark);
   model.page.set("report_json", text_for_script(model.json));
 
-  fs::path numbers = page;
-  numbers.replace_extension(".json");
-  files::write_text(numbers, text_for_script(model.json) + "\n");
-  files::write_text(page, render_page(model.page, "compare",
-                                      {"dygraphs", "moment", "charts", "tables"}, templates));
+  files::AtomicFiles output;
+  output.write(numbers, text_for_script(model.json) + "\n");
+  output.write(page, render_page(model.page, "compare", {"dygraphs", "moment", "charts", "tables"},
+                                 templates));
+  output.commit();
   std::string text;
   for (const char* id : {"figures", "differences", "wins"}) {
     text += terminal_table(model.json["tables"][id]);

@@ -26,6 +26,12 @@ struct BatchFolder {
   std::filesystem::path run(const std::string& id) const { return runs() / run_name(id); }
   std::filesystem::path completion(const std::string& id) const { return run(id) / "result.json"; }
 
+  /// A batch writes over files of the names above only where one has worked before, which its
+  /// journal tells. Other files in the folder are in nobody's way. \param plan its text: the plan
+  /// may be read from the place where it is kept \throws files::OutputError naming a file that is
+  /// there and is somebody else's.
+  void require_own(const std::string& plan) const;
+
   /// Makes the folders. \throws files::OutputError
   void prepare() const;
 };

@@ -10,8 +10,8 @@
 
 namespace traverse::batch {
 
-/// What a run is told to write, in a folder to work in that is its own.
-inline constexpr const char* kRunInWork = "run";
+/// Where a run writes to in the folder that it works in: its log stands beside.
+inline constexpr const char* kRunOutput = "run";
 
 /// One run of a plan: a line of the plan's table, what it starts, and who it is.
 struct Job {
@@ -21,7 +21,7 @@ struct Job {
   std::string pipeline;
   std::vector<std::string> settings;   ///< "solver.huber_m=0.2", of the grid only
   int repeat = 1;                      ///< counted from 1
-  std::vector<std::string> arguments;  ///< of the program: "run", RECORDING, ...; output is kRunInWork
+  std::vector<std::string> arguments;  ///< of the program: "run", RECORDING, "-o", kRunOutput, ...
   RunLimits limits;
 
   /// "floam solver.huber_m=0.2": the pipeline and its point of the grid.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <iosfwd>
 #include <string_view>
 #include <utility>
 
@@ -52,5 +53,8 @@ geometry::Trajectory read_trajectory(const std::filesystem::path& file, Trajecto
 void write_tum(const std::filesystem::path& file, const geometry::Trajectory& T_map_body);
 void write_kitti(const std::filesystem::path& file, const geometry::Trajectory& T_map_body);
 void write_euroc(const std::filesystem::path& file, const geometry::Trajectory& T_map_body);
+/// The same to a stream, for files that are written together with others.
+void write_tum(std::ostream& stream, const geometry::Trajectory& T_map_body);
+void write_kitti(std::ostream& stream, const geometry::Trajectory& T_map_body);
 
 }  // namespace traverse::dataset
