@@ -31,10 +31,6 @@ fs::path without_links(const fs::path& path) {
   return whole.has_filename() ? whole : whole.parent_path();
 }
 
-fs::path work_beside(const fs::path& folder) {
-  return folder.parent_path() / fmt::format(".{}.traverse-work", folder.filename().string());
-}
-
 /// A folder that is the root of a mounted file system cannot be renamed.
 bool is_mount_point(const fs::path& path) {
   struct statx status {};
@@ -76,10 +72,14 @@ void require_replaceable(const fs::path& given, const fs::path& folder) {
 
 }  // namespace
 
+fs::path RunDestination::work_folder(const fs::path& folder) {
+  return folder.parent_path() / fmt::format(".{}.traverse-work", folder.filename().string());
+}
+
 RunDestination::RunDestination(fs::path given, const std::vector<Input>& inputs)
     : given_(given.has_filename() ? std::move(given) : given.parent_path()),
       folder_(without_links(given_)),
-      made_{work_beside(folder_) / "run"} {
+      made_{work_folder(folder_) / "run"} {
   for (const Input& input : inputs) {
     if (is_in_or_at(without_links(input.path), folder_)) {
       throw files::OutputError(
@@ -96,7 +96,7 @@ RunFolder RunDestination::begin() {
   std::error_code failure;
   fs::create_directories(folder_.parent_path(), failure);
   if (failure) throw files::OutputError(given_, failure.message());
-  work_ = std::make_unique<files::WorkFolder>(work_beside(folder_), given_);
+  work_ = std::make_unique<files::WorkFolder>(work_folder(folder_), given_);
   recover_replacement(made_.path, folder_, work_->path() / "earlier");
   work_->clear();
   require_replaceable(given_, folder_);  // it may have changed before the lock was held
@@ -149,7 +149,7 @@ RunFolder RunDestination::finish(Outcome outcome, bool force) {
 void RunDestination::give_name(const fs::path& folder, const fs::path& shown) {
   // Somebody's own run may be on its way to the other name.
   std::unique_ptr<files::WorkFolder> other;
-  if (folder != folder_) other = std::make_unique<files::WorkFolder>(work_beside(folder), shown);
+  if (folder != folder_) other = std::make_unique<files::WorkFolder>(work_folder(folder), shown);
   const fs::path earlier = work_->path() / "earlier";
   work_->keep(true);  // for a moment an earlier run may be in it
   try {

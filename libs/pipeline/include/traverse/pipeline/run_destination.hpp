@@ -24,6 +24,9 @@ class RunDestination {
     std::filesystem::path path;
   };
 
+  /// Where a run on its way to `folder` works: beside it, under a hidden name.
+  static std::filesystem::path work_folder(const std::filesystem::path& folder);
+
   /// Looks and changes nothing.
   /// \param given the folder as the user names it: need not be there; may be a link to a folder
   /// \param inputs what the run reads: nothing of it may stand in the folder
