@@ -225,7 +225,8 @@ void tell_of_new_working_directory() {
   std::error_code failure;
   std::filesystem::current_path(failure);
   if (failure) {
-    print_message("the working directory was replaced by the new run: `cd \"$PWD\"` shows it\n");
+    print_message(
+        "traverse: the working directory was replaced by the new run: `cd \"$PWD\"` shows it\n");
   }
 }
 
@@ -237,8 +238,7 @@ void finish_run(const RunArguments& arguments, pipeline::RunDestination& destina
   using Outcome = pipeline::RunDestination::Outcome;
   const bool has_frames = record.frames_used > 0;
   const bool had_run = destination.has_earlier_run();
-  const Outcome outcome =
-      record.status == RunStatus::kOk ? Outcome::kComplete : Outcome::kPartial;
+  const Outcome outcome = record.status == RunStatus::kOk ? Outcome::kComplete : Outcome::kPartial;
   const std::string earlier = destination.given().string();
   if (!has_frames && had_run) {
     const std::string kept = fmt::format("; {} is the earlier run, as it was", earlier);
@@ -272,8 +272,9 @@ void finish_run(const RunArguments& arguments, pipeline::RunDestination& destina
                                          record.frames_used == 1 ? "is" : "are", stands));
   }
   if (!destination.why_beside().empty()) {
-    throw std::runtime_error(fmt::format("the run is complete, but could not take its place ({}); {}",
-                                         destination.why_beside(), stands));
+    throw std::runtime_error(
+        fmt::format("the run is complete, but could not take its place ({}); {}",
+                    destination.why_beside(), stands));
   }
   if (!record.evaluation_error.empty()) {
     throw std::runtime_error("the run is complete, but it could not be compared with " +
@@ -312,8 +313,7 @@ void run_recording(RunArguments& arguments, const std::vector<std::string>& comm
   using Outcome = pipeline::RunDestination::Outcome;
   const auto place = [&] {
     const bool is_complete = record.status == pipeline::RunStatus::kOk;
-    return destination.place(is_complete ? Outcome::kComplete : Outcome::kPartial,
-                             arguments.force);
+    return destination.place(is_complete ? Outcome::kComplete : Outcome::kPartial, arguments.force);
   };
   const std::string reason = record.reason;
   record.reason = destination.in_words(reason, place());

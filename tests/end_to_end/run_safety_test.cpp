@@ -48,12 +48,12 @@ class RunSafety : public ::testing::Test {
     recordings_ = new testing::TemporaryFolder;
     for (const auto& [name, options] :
          {std::pair{"short", "--first 80 --duration 0.4"}, {"long", "--first 40 --duration 6"}}) {
-      const auto simulated = run_program(
-          std::string("simulate town_short --sensor vlp16 ") + options + " -o " + recording(name));
+      const auto simulated = run_program(std::string("simulate town_short --sensor vlp16 ") +
+                                         options + " -o " + recording(name));
       ASSERT_EQ(simulated.status, 0) << simulated.messages;
     }
-    const auto made = run_program("run " + recording("short") + " -o " +
-                                  (*recordings_ / "made").string());
+    const auto made =
+        run_program("run " + recording("short") + " -o " + (*recordings_ / "made").string());
     ASSERT_EQ(made.status, 0) << made.messages;
   }
   static void TearDownTestSuite() { delete recordings_; }

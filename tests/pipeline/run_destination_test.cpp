@@ -26,8 +26,8 @@ using Outcome = RunDestination::Outcome;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::UnorderedElementsAre;
 using testing::TemporaryFolder;
+using ::testing::UnorderedElementsAre;
 
 /// Writes what a run writes, as far as a folder is known by it. \param mark stands in each file
 void write_run(const RunFolder& run, RunStatus status, const std::string& mark) {
@@ -109,8 +109,9 @@ TEST_F(RunDestinationTest, AnEarlierRunIsReplacedAndWhatIsNotItsOwnStays) {
   files::make_writable_folder(run_.path / "mine/deep/empty");
   files::make_writable_folder(run_.images() / "folder");
   std::map<std::string, std::string> foreign;
-  for (const char* name : {"notes.txt", ".hidden", "map.ply.bak", "mine/deep/file", "images/mine.png",
-                           "images/map-height.txt", "images/folder/map-height.png"}) {
+  for (const char* name :
+       {"notes.txt", ".hidden", "map.ply.bak", "mine/deep/file", "images/mine.png",
+        "images/map-height.txt", "images/folder/map-height.png"}) {
     files::write_text(run_.path / name, std::string("mine: ") + name);
     foreign[name] = files::sha256_of_file(run_.path / name);
   }

@@ -27,9 +27,9 @@ TEST(RunFolder, KnowsItsPicturesFromTheUsers) {
                           "trajectory-error.svg", "worst-segment-10_dark.png"}) {
     EXPECT_TRUE(RunFolder::is_picture(own)) << own;
   }
-  for (const char* foreign : {"mine.png", "map-height.txt", "map-height", "map-height_dark_print.png",
-                              "worst-segment-.png", "worst-segment-1a.png", "my map-height.png",
-                              ".png", ""}) {
+  for (const char* foreign :
+       {"mine.png", "map-height.txt", "map-height", "map-height_dark_print.png",
+        "worst-segment-.png", "worst-segment-1a.png", "my map-height.png", ".png", ""}) {
     EXPECT_FALSE(RunFolder::is_picture(foreign)) << foreign;
   }
 }

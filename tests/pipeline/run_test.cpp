@@ -148,9 +148,9 @@ class RunTest : public ::testing::Test {
 
   /// Trajectory, health, map, and evaluation are those of the first `frames` frames.
   void expect_results_of(std::size_t frames) const {
-    EXPECT_EQ(dataset::read_trajectory(run_folder_.trajectory(), dataset::TrajectoryFormat::kTum)
-                  .size(),
-              frames);
+    EXPECT_EQ(
+        dataset::read_trajectory(run_folder_.trajectory(), dataset::TrajectoryFormat::kTum).size(),
+        frames);
     EXPECT_EQ(FrameTable::read_csv(run_folder_.frames()).rows().size(), frames);
     EXPECT_GT(dataset::read_point_cloud(run_folder_.map_points()).size(), 0U);
     const auto evaluation = evaluation::from_json(files::read_text(run_folder_.evaluation()));

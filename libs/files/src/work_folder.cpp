@@ -60,8 +60,8 @@ bool has_no_locks(int error) {
 /// \returns the descriptor that holds the lock, or -1 if the folder went away meanwhile.
 int try_lock(const fs::path& folder, const fs::path& result, WorkFolder::Others others) {
   if (::mkdir(folder.c_str(), 0777) != 0 && errno != EEXIST) {
-    throw OutputError(result, fmt::format("{} cannot be made: {}", folder.string(),
-                                          std::strerror(errno)));
+    throw OutputError(result,
+                      fmt::format("{} cannot be made: {}", folder.string(), std::strerror(errno)));
   }
   const fs::path file = folder / kLockName;
   const int lock = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
@@ -80,7 +80,8 @@ int try_lock(const fs::path& folder, const fs::path& result, WorkFolder::Others 
   if (error == EWOULDBLOCK) {
     const std::string owner = owner_in(lock);
     ::close(lock);
-    throw FolderInUse(fmt::format("{}: {} is writing it", result.string(), owner));
+    throw FolderInUse(
+        fmt::format("{}: {} is writing it; wait until it is through", result.string(), owner));
   }
   if (error != 0 && !has_no_locks(error)) {
     ::close(lock);

@@ -58,9 +58,7 @@ class Steps {
   std::string reason_;
 };
 
-bool is_stopped(const RunObserver& observer) {
-  return observer.stop != nullptr && *observer.stop;
-}
+bool is_stopped(const RunObserver& observer) { return observer.stop != nullptr && *observer.stop; }
 
 /// Thrown through the reading loop when the user stops the run.
 class Stopped : public std::exception {};
@@ -256,7 +254,8 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
   }
   if (stopped && (!attempt.has_failed() || !has_frames)) {
     record.status = RunStatus::kInterrupted;
-    record.reason = has_frames ? "stopped by the user" : "stopped by the user before the first frame";
+    record.reason =
+        has_frames ? "stopped by the user" : "stopped by the user before the first frame";
   } else {
     record.status = attempt.has_failed() ? RunStatus::kFailed : RunStatus::kOk;
     record.reason = attempt.reason();

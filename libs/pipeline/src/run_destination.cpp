@@ -105,9 +105,7 @@ RunFolder RunDestination::begin() {
   return made_;
 }
 
-bool RunDestination::has_earlier_run() const {
-  return look_at_place(folder_).kind == Kind::kRun;
-}
+bool RunDestination::has_earlier_run() const { return look_at_place(folder_).kind == Kind::kRun; }
 
 fs::path RunDestination::beside(int number) const {
   const fs::path name = given_.filename();

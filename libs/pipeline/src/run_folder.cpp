@@ -13,28 +13,18 @@ namespace traverse::pipeline {
 namespace {
 
 /// Those of libs/report, which makes none of another name.
-constexpr std::array<std::string_view, 22> kPictures{"association",
-                                                     "error-distribution",
-                                                     "error-over-time",
-                                                     "error-violins",
-                                                     "health-over-time",
-                                                     "kitti-drift",
-                                                     "kitti-segments",
-                                                     "loops-above",
-                                                     "map-height",
-                                                     "map-intensity",
-                                                     "map-perspective",
-                                                     "map-slice",
-                                                     "map-slice-above",
-                                                     "navigation-accelerometer-bias",
-                                                     "navigation-fixes",
-                                                     "navigation-gyro-bias",
-                                                     "navigation-nis",
-                                                     "scan-features",
-                                                     "timing-stages",
-                                                     "trajectory-above",
-                                                     "trajectory-error",
-                                                     "trajectory-side"};
+constexpr std::array<std::string_view, 22> kPictures{
+    "association",      "error-distribution",
+    "error-over-time",  "error-violins",
+    "health-over-time", "kitti-drift",
+    "kitti-segments",   "loops-above",
+    "map-height",       "map-intensity",
+    "map-perspective",  "map-slice",
+    "map-slice-above",  "navigation-accelerometer-bias",
+    "navigation-fixes", "navigation-gyro-bias",
+    "navigation-nis",   "scan-features",
+    "timing-stages",    "trajectory-above",
+    "trajectory-error", "trajectory-side"};
 
 /// "worst-segment-3": a name with a number.
 constexpr std::string_view kNumbered = "worst-segment-";
@@ -48,8 +38,8 @@ bool remove_end(std::string_view& text, std::string_view end) {
 }  // namespace
 
 std::vector<std::filesystem::path> RunFolder::files() const {
-  return {record(),     trajectory(),   utm_trajectory(), odometry(), odometry_evaluation(),
-          loops(),      keyframes(),    reference(),      frames(),   map_points(),
+  return {record(),     trajectory(),   utm_trajectory(), odometry(),     odometry_evaluation(),
+          loops(),      keyframes(),    reference(),      frames(),       map_points(),
           simple_map(), origin(),       sample_scan(),    worst_frames(), evaluation(),
           jacobians(),  factor_bench(), report(),         report_json()};
 }

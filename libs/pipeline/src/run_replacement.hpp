@@ -14,7 +14,7 @@ struct FoundInPlace {
     kForeign  ///< anything else
   };
   Kind kind = Kind::kNothing;
-  std::string text;  ///< what it is if it is foreign: "it holds notes.txt and no run.json"
+  std::string text;          ///< what it is if it is foreign: "it holds notes.txt and no run.json"
   bool is_complete = false;  ///< a run with status ok
 };
 FoundInPlace look_at_place(const std::filesystem::path& folder);

@@ -27,8 +27,8 @@ struct Figure {
 };
 
 /// Draws every picture that the run has data for and writes them to `images` as NAME.png and
-/// NAME_dark.png; those without point clouds also as NAME.svg and NAME.pdf, the others for print, if
-/// that is asked for. \throws files::OutputError; ReportStopped
+/// NAME_dark.png; those without point clouds also as NAME.svg and NAME.pdf, the others for print,
+/// if that is asked for. \throws files::OutputError; ReportStopped
 std::vector<Figure> draw_figures(const RunData& run, const evaluation::WorstSegments& worst,
                                  const RunReportOptions& options,
                                  const std::filesystem::path& images);

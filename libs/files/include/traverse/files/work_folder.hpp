@@ -14,9 +14,9 @@ class FolderInUse : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A folder for what is not finished yet, of a fixed name, held by one process. The system holds the
-/// lock (flock on a file within) and lets go of it however the process ends, so that a folder whose
-/// lock is free is what a killed process left: the next one takes it and clears it.
+/// A folder for what is not finished yet, of a fixed name, held by one process. The system holds
+/// the lock (flock on a file within) and lets go of it however the process ends, so that a folder
+/// whose lock is free is what a killed process left: the next one takes it and clears it.
 ///
 /// It is removed with this object, and by a signal that ends the program.
 class WorkFolder {
@@ -38,8 +38,8 @@ class WorkFolder {
   /// Removes everything in it. \throws OutputError
   void clear();
 
-  /// From now on it stays as it is, even if a signal ends the program, until the next process comes:
-  /// something in it must not be lost. As long as `keep` is false again nothing has changed.
+  /// From now on it stays as it is, even if a signal ends the program, until the next process
+  /// comes: something in it must not be lost. As long as `keep` is false again nothing has changed.
   void keep(bool keep);
 
  private:

@@ -30,7 +30,8 @@ class RunDestination {
   /// Looks and changes nothing.
   /// \param given the folder as the user names it: need not be there; may be a link to a folder
   /// \param inputs what the run reads: nothing of it may stand in the folder
-  /// \throws files::OutputError if the folder is neither empty nor an earlier run, or holds an input
+  /// \throws files::OutputError if the folder is neither empty nor an earlier run, or holds an
+  /// input
   RunDestination(std::filesystem::path given, const std::vector<Input>& inputs);
   ~RunDestination();
   RunDestination(const RunDestination&) = delete;
@@ -46,14 +47,14 @@ class RunDestination {
     kPartial  ///< interrupted or failed: it does not replace an earlier run
   };
 
-  /// Where it will stand, as the user would name it: in place of an earlier run if it is complete or
-  /// `force` says so, else beside that one as NAME.interrupted, where it replaces an earlier partial
-  /// run; NAME.interrupted.2 and so on if something else is there.
+  /// Where it will stand, as the user would name it: in place of an earlier run if it is complete
+  /// or `force` says so, else beside that one as NAME.interrupted, where it replaces an earlier
+  /// partial run; NAME.interrupted.2 and so on if something else is there.
   std::filesystem::path place(Outcome outcome, bool force) const;
 
-  /// Gives the run its name. \returns where it stands: at place(), or, if an earlier run there could
-  /// not be replaced, beside it
-  /// \throws files::OutputError if that is not possible either; the earlier run is as it was
+  /// Gives the run its name. \returns where it stands: at place(), or, if an earlier run there
+  /// could not be replaced, beside it \throws files::OutputError if that is not possible either;
+  /// the earlier run is as it was
   RunFolder finish(Outcome outcome, bool force);
 
   /// Why finish() could not replace the earlier run; empty if it could or should not.
