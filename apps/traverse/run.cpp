@@ -220,15 +220,21 @@ pipeline::RunOptions run_options(const RunArguments& arguments,
   return options;
 }
 
-/// Where the working directory of the user's shell was replaced, it has to be entered again.
-void tell_of_new_working_directory() {
-  std::error_code failure;
-  std::filesystem::current_path(failure);
-  if (failure) {
-    print_message(
-        "traverse: the working directory was replaced by the new run: `cd \"$PWD\"` shows it\n");
+/// With `-o .` the working directory is replaced: this program enters it again, and the user's
+/// shell has to.
+class WorkingDirectory {
+ public:
+  void enter_again_if_replaced() const {
+    std::error_code failure;
+    std::filesystem::current_path(failure);
+    if (!failure) return;
+    std::filesystem::current_path(path_, failure);
+    print_message("traverse: the working directory was replaced by the new run: `cd \"$PWD\"`\n");
   }
-}
+
+ private:
+  std::filesystem::path path_ = std::filesystem::current_path();
+};
 
 /// Gives the run its name, says what came of it, and throws what the exit status is to tell.
 void finish_run(const RunArguments& arguments, pipeline::RunDestination& destination,
@@ -246,8 +252,9 @@ void finish_run(const RunArguments& arguments, pipeline::RunDestination& destina
     fmt::print("interrupted: {}{}\n", record.reason, kept);
     throw CLI::RuntimeError(stop.exit_status());
   }
+  const WorkingDirectory working_directory;
   const pipeline::RunFolder folder = destination.finish(outcome, arguments.force);
-  tell_of_new_working_directory();
+  working_directory.enter_again_if_replaced();
   const bool beside = folder.path != destination.given();
   if (has_frames && record.status != RunStatus::kFailed) {
     print_run_summary(record, folder, extras.has_report());

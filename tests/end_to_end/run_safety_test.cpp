@@ -171,6 +171,17 @@ TEST_F(RunSafety, FoldersThatAreNoRunAreRefusedAndNotTouched) {
   EXPECT_EQ(digests(folder_.path()), before);
 }
 
+TEST_F(RunSafety, TheWorkingDirectoryCanBeReplaced) {
+  const std::string run = earlier_run();
+  const auto result = run_program("run " + recording("short") + " --last 2 --no-report -o .",
+                                  "cd " + run + " && " + TRAVERSE_PROGRAM);
+  EXPECT_EQ(result.status, 0) << result.messages;
+  EXPECT_THAT(result.messages, HasSubstr("the working directory was replaced"));
+  EXPECT_EQ(record(run)["frames"]["used"], 3);
+  expect_foreign_files_in(run);
+  EXPECT_THAT(names(), ElementsAre("run"));
+}
+
 TEST_F(RunSafety, LocalizeLeavesForeignFiles) {
   const std::string run = earlier_run();
   const auto map = run_program("run " + recording("long") + " --last 30 -o " + at("map") +

@@ -20,7 +20,7 @@ namespace traverse::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
-using Kind = FoundInPlace::Kind;
+using Found = FoundInPlace::Kind;
 
 constexpr int kMostBeside = 1000;
 
@@ -46,7 +46,7 @@ bool is_in_or_at(const fs::path& path, const fs::path& folder) {
 
 void require_replaceable(const fs::path& given, const fs::path& folder) {
   const FoundInPlace found = look_at_place(folder);
-  if (found.kind == Kind::kForeign) {
+  if (found.kind == Found::kForeign) {
     throw files::OutputError(
         given, found.text +
                    ". Nothing was changed; give an empty folder, one that is not there yet, or an "
@@ -105,7 +105,7 @@ RunFolder RunDestination::begin() {
   return made_;
 }
 
-bool RunDestination::has_earlier_run() const { return look_at_place(folder_).kind == Kind::kRun; }
+bool RunDestination::has_earlier_run() const { return look_at_place(folder_).kind == Found::kRun; }
 
 fs::path RunDestination::beside(int number) const {
   const fs::path name = given_.filename();
@@ -114,17 +114,17 @@ fs::path RunDestination::beside(int number) const {
 }
 
 fs::path RunDestination::place(Outcome outcome, bool force) const {
-  const Kind found = look_at_place(folder_).kind;
+  const Found found = look_at_place(folder_).kind;
   const bool may_replace = outcome == Outcome::kComplete || force;
-  if (found == Kind::kNothing || found == Kind::kNoPoses) return given_;
-  if (found == Kind::kRun && may_replace) return given_;
+  if (found == Found::kNothing || found == Found::kNoPoses) return given_;
+  if (found == Found::kRun && may_replace) return given_;
   return free_place_beside();
 }
 
 fs::path RunDestination::free_place_beside() const {
   for (int number = 1; number < kMostBeside; ++number) {
     const FoundInPlace there = look_at_place(beside(number));
-    if (there.kind != Kind::kForeign && !there.is_complete) return beside(number);
+    if (there.kind != Found::kForeign && !there.is_complete) return beside(number);
   }
   throw files::OutputError(beside(1), "something is in each folder of such a name");
 }
