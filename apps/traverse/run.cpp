@@ -226,8 +226,7 @@ class WorkingDirectory {
  public:
   void enter_again_if_replaced() const {
     std::error_code failure;
-    std::filesystem::current_path(failure);
-    if (!failure) return;
+    if (std::filesystem::exists(std::filesystem::current_path(failure), failure)) return;
     std::filesystem::current_path(path_, failure);
     print_message("traverse: the working directory was replaced by the new run: `cd \"$PWD\"`\n");
   }
