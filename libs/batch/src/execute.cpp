@@ -24,6 +24,7 @@
 #include "traverse/files/numbers.hpp"
 #include "traverse/files/unfinished.hpp"
 #include "traverse/pipeline/provenance.hpp"
+#include "traverse/pipeline/run_destination.hpp"
 #include "traverse/pipeline/run_folder.hpp"
 
 #include "host_name.hpp"
@@ -178,6 +179,8 @@ void take_out_of_its_folder(const fs::path& work) {
     if (failure) throw files::OutputError(work, failure.message());
   }
   fs::remove(work / kRunOutput, failure);
+  // What a killed run was writing to is not finished.
+  fs::remove_all(pipeline::RunDestination::work_folder(work / kRunOutput), failure);
 }
 
 Completion finish(const fs::path& work, const Job& job, const ProcessEnd& end, bool memory_ran_out,

@@ -47,7 +47,7 @@ RunData read_run(const std::filesystem::path& folder) {
   RunData run;
   run.folder = folder;
   run.record = read_record(files.record());
-  if (run.record.value("status", "") == "failed") {
+  if (run.record.value("status", "") == "failed" && !std::filesystem::exists(files.trajectory())) {
     throw files::InputError(files.record(), files::Place::key("status"), "a run that has results",
                             "failed: " + run.record.value("reason", ""));
   }
