@@ -63,8 +63,14 @@ void Slam::accept(Loop& loop) {
 }
 
 void Slam::solve() {
-  solution_ = graph_.optimise();
+  pose_graph::Result result = graph_.optimise();
   unsolved_loops_ = 0;
+  failure_.clear();
+  if (!result.is_usable) {
+    failure_ = std::move(result.message);
+    return;
+  }
+  solution_ = std::move(result);
   std::vector<Eigen::Vector3d> p_map;
   for (std::size_t i = 0; i < graph_.size(); ++i) p_map.push_back(graph_.pose(i).translation);
   candidates_.move(p_map);

@@ -9,6 +9,7 @@
 
 #include "traverse/geometry/so3.hpp"
 #include "traverse/optimization/rotation_manifold.hpp"
+#include "traverse/optimization/solution.hpp"
 
 #include "stopwatch.hpp"
 #include "voxel/condensed_cost.hpp"
@@ -63,10 +64,8 @@ Solved solve(CondensedCost& cost, const geometry::Pose3& guess, int iterations) 
   options.max_num_iterations = iterations;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
-  return {geometry::Pose3::from_quaternion(q, t), static_cast<int>(summary.iterations.size()) - 1,
-          summary.IsSolutionUsable()};
+  const optimization::Solution solution = optimization::solve(options, problem);
+  return {geometry::Pose3::from_quaternion(q, t), solution.iterations, solution.is_usable};
 }
 
 }  // namespace
