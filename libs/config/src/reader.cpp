@@ -104,7 +104,7 @@ class Reader : public Binder {
 
   void group(std::string_view key, std::string_view,
              const std::function<void(Binder&)>& body) override {
-    static const Entry kEmpty{{}, {}, 0, {}, {}, true};
+    static const Entry kEmpty{{}, {}, 0, {}, {}, {}, true};
     const Entry* entry = take(key);
     if (entry != nullptr && !entry->is_mapping) throw wrong(*entry, "a mapping");
     Reader reader(entry != nullptr ? *entry : kEmpty, path(key) + ".");

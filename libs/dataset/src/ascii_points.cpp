@@ -29,10 +29,10 @@ void read_ascii_points(FileCursor& file, std::size_t points,
 
   for (std::size_t i = 0; i < points; ++i) {
     const std::string_view line = next_point_line(file, i, points);
-    const std::vector<std::string_view> words = files::split_words(line);
+    const std::vector<std::string_view> words = files::split_words(line, words_a_line + 1);
     if (words.size() != words_a_line) {
       throw file.error(fmt::format("{} values a point", words_a_line),
-                       fmt::format("{}", words.size()));
+                       words.size() > words_a_line ? "more" : fmt::format("{}", words.size()));
     }
     std::size_t word = 0;
     for (const AsciiColumn& column : columns) {

@@ -39,10 +39,10 @@ std::string to_text(double value) {
   return {buffer.data(), end};
 }
 
-std::vector<std::string_view> split_words(std::string_view line) {
+std::vector<std::string_view> split_words(std::string_view line, std::size_t most) {
   std::vector<std::string_view> words;
   std::size_t begin = line.find_first_not_of(kBlanks);
-  while (begin != std::string_view::npos) {
+  while (begin != std::string_view::npos && words.size() < most) {
     const std::size_t end = line.find_first_of(kBlanks, begin);
     words.push_back(line.substr(begin, end - begin));
     begin = line.find_first_not_of(kBlanks, end);
