@@ -22,7 +22,7 @@ namespace {
 using namespace traverse;
 
 std::string read_recording(const std::string& path) {
-  const auto source = dataset::open_recording(path, {TRAVERSE_SHARE_DIR, {}, {}});
+  const auto source = dataset::open_recording(path, {{}, {}, TRAVERSE_SHARE_DIR});
   std::size_t count = 0;
   while (source->next()) ++count;
   std::string text = fmt::format("{} measurements", count);
@@ -41,7 +41,8 @@ const std::map<std::string, std::function<std::string(const std::string&)>> kRea
     {"recording", read_recording},
     {"trajectory",
      [](const std::string& path) {
-       return fmt::format("{} poses", dataset::read_trajectory(path).size());
+       return fmt::format("{} poses",
+                          dataset::read_trajectory(path, dataset::TrajectoryFormat::kAuto).size());
      }},
     {"yaml",
      [](const std::string& path) {
@@ -55,7 +56,8 @@ const std::map<std::string, std::function<std::string(const std::string&)>> kRea
        return std::string("settings");
      }},
     {"map", [](const std::string& path) {
-       return fmt::format("{} keyframes", dataset::for_each_keyframe(path, [](auto...) {}));
+       return fmt::format("{} keyframes", dataset::for_each_keyframe(
+                                              path, [](std::size_t, const auto&, const auto&) {}));
      }}};
 
 /// Of this process, kilobytes; ru_maxrss would count the process that started this one.

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
@@ -283,14 +284,16 @@ TEST_F(ReaderMemory, Yaml) {
         "an alias of a value that is complete");
   std::string keys;
   for (int i = 0; i < 60'000; ++i) keys += fmt::format("key_{}: {}\n", i, i);
-  check("YAML, 60 000 keys", "yaml", write("e.yaml", keys), "60000 values");
-  check("YAML, 60 000 keys that are no settings", "settings", write("e.yaml", keys),
+  check("YAML, 60 000 keys", "yaml", write("e.yaml", keys), "at most 40000 keys and values");
+  keys.resize(keys.find("key_19000:"));
+  check("YAML, 19 000 keys", "yaml", write("e.yaml", keys), "19000 values");
+  check("YAML, 19 000 keys that are no settings", "settings", write("e.yaml", keys),
         "expected a known key");
   check("YAML, 2 million keys", "yaml", write("f.yaml", "{" + repeated("a,", 2'000'000) + "}"),
-        "at most 150000 keys and values");
+        "at most 40000 keys and values");
   check("YAML, a list of 3 million numbers", "yaml",
         write("g.yaml", "a: [" + repeated("1,", 3'000'000) + "]\n"),
-        "at most 150000 keys and values");
+        "at most 40000 keys and values");
   check("YAML, lists 10^5 deep", "yaml", write("h.yaml", "a: " + std::string(100'000, '[')),
         "less deeply nested");
   check("YAML, mappings 10^5 deep", "yaml", write("i.yaml", repeated("{a: ", 100'000)),
@@ -305,21 +308,18 @@ TEST_F(ReaderMemory, Yaml) {
         write("m.yaml", "a: !<" + std::string(1'000'000, 'x') + "> 1\n"), "");
 }
 
-/// The bytes of an object as MRPT writes it, with each `from` that stands there as four bytes
-/// changed.
+/// An object as MRPT writes it.
+std::string bytes_of(const mrpt::serialization::CSerializable& object) {
+  mrpt::io::CMemoryStream stream;
+  auto archive = mrpt::serialization::archiveFrom(stream);
+  archive << object;
+  return {static_cast<const char*>(stream.getRawBufferData()), stream.getTotalBytesCount()};
+}
+
+/// The same with each `from` that stands there as four bytes changed.
 std::string with_count(const mrpt::serialization::CSerializable& object, std::uint32_t from,
                        std::uint32_t to) {
-  const TemporaryFolder folder;
-  {
-    RawlogMaker maker(folder / "a", 0);
-    maker.add(object);
-  }
-  std::string bytes = files::read_text(folder / "a");
-  if (bytes.starts_with("\x1f\x8b")) {
-    const std::string name = (folder / "a").string();
-    EXPECT_EQ(std::system(("gzip -dc '" + name + "' > '" + name + ".plain'").c_str()), 0);
-    bytes = files::read_text(name + ".plain");
-  }
+  std::string bytes = bytes_of(object);
   std::size_t changed = 0;
   for (std::size_t at = bytes.find(raw(from)); at != std::string::npos;
        at = bytes.find(raw(from), at + 4)) {
@@ -344,12 +344,7 @@ TEST_F(ReaderMemory, Rawlogs) {
   constexpr std::uint32_t kThere = 1717;
   constexpr std::uint32_t kStated = 200'000'000;
   const auto one = [&](const char* what, const mrpt::serialization::CSerializable& object) {
-    std::string first;
-    {
-      RawlogMaker maker(folder_ / "first", 0);
-      maker.add(made_imu(0));
-    }
-    const std::string bytes = with_count(made_imu(0), 9, 9) + with_count(object, kThere, kStated);
+    const std::string bytes = bytes_of(made_imu(0)) + with_count(object, kThere, kStated);
     check(what, "recording", write("a.rawlog", bytes), "is damaged");
   };
   one("rawlog, Velodyne points", made_velodyne(1, kThere));
@@ -377,7 +372,7 @@ TEST_F(ReaderMemory, Rawlogs) {
   rotating.rangeImage.resize(17, 17);
   std::string bytes = with_count(rotating, 17U | 17U << 16U, 0xffffffffU);
   check("rawlog, range image of 65535 x 65535", "recording",
-        write("b.rawlog", with_count(made_imu(0), 9, 9) + bytes), "");
+        write("b.rawlog", bytes_of(made_imu(0)) + bytes), "");
 
   // A scan of 20 million points that are there, all the same: 0.1 MB on disk.
   const auto large = cloud_of(5'000'000);

@@ -1,11 +1,12 @@
 #include "allocation_guard.hpp"
 
-#include <cerrno>
+#include <algorithm>
 #include <cstdlib>
 #include <new>
 #include <utility>
 
 #include <fmt/format.h>
+#include <mrpt/core/aligned_allocator.h>
 
 #include "traverse/files/binary_file.hpp"
 
@@ -58,10 +59,20 @@ std::string AllocationGuard::refusal() const {
 
 }  // namespace traverse::dataset
 
-#ifndef TRAVERSE_SANITIZED
+// What MRPT makes its vectors with: a function of its own for coordinates and images, in whose
+// place this one comes, and operator new for all others. What they return is freed as ever.
 
-// What MRPT's vectors are made with: plain ones, and those of coordinates and images, which are
-// aligned. What is returned is freed as ever.
+void* mrpt::aligned_malloc(std::size_t size, std::size_t alignment) {
+  void* piece = nullptr;
+  // MRPT's own gives null when there is no memory, and its vectors write there.
+  if (!traverse::dataset::AllocationGuard::allows(size) ||
+      ::posix_memalign(&piece, std::max(alignment, sizeof(void*)), size) != 0) {
+    throw std::bad_alloc();
+  }
+  return piece;
+}
+
+#ifndef TRAVERSE_SANITIZED
 
 void* operator new(std::size_t size) {
   if (!traverse::dataset::AllocationGuard::allows(size)) throw std::bad_alloc();
@@ -75,17 +86,5 @@ void* operator new(std::size_t size) {
 
 void operator delete(void* piece) noexcept { std::free(piece); }
 void operator delete(void* piece, std::size_t) noexcept { std::free(piece); }
-
-extern "C" __attribute__((visibility("default"))) void* aligned_alloc(std::size_t alignment,
-                                                                      std::size_t size) noexcept {
-  void* piece = nullptr;
-  if (!traverse::dataset::AllocationGuard::allows(size)) {
-    errno = ENOMEM;
-    return nullptr;
-  }
-  const std::size_t least = alignment < sizeof(void*) ? sizeof(void*) : alignment;
-  errno = ::posix_memalign(&piece, least, size);
-  return errno == 0 ? piece : nullptr;
-}
 
 #endif

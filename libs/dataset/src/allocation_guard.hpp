@@ -12,7 +12,7 @@ namespace traverse::dataset {
 /// MRPT makes a vector as long as a record states before it looks for the bytes to fill it with, so
 /// that a damaged or made-up record of a hundred bytes takes gigabytes. Nothing but the allocation
 /// stands between the two, so that is where it is stopped: with std::bad_alloc, which MRPT passes
-/// on. Not in the sanitizers' builds, whose allocators are their own.
+/// on. In the sanitizers' builds, whose operator new is their own, for coordinates and images only.
 class AllocationGuard {
  public:
   /// Whether so many bytes follow in what is read.
