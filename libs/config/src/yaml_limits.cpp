@@ -24,6 +24,9 @@ constexpr std::size_t kDeepestNesting = 32;
 /// A node of yaml-cpp takes three quarters of a kilobyte, and two bytes of a file may be one.
 constexpr std::uint64_t kMostValues = 40'000;
 constexpr std::uint64_t kMostText = std::uint64_t{4} << 20;  // bytes
+constexpr std::size_t kLongest = std::size_t{1} << 20;       // bytes of a document
+/// yaml-cpp keeps every token of what stands in brackets, since all of it might be a key.
+constexpr std::size_t kLongestInBrackets = std::size_t{1} << 17;
 
 /// Measures a document as it would be with each alias written out: a few lines of aliases of
 /// aliases are billions of values.
@@ -110,9 +113,38 @@ class Measure final : public YAML::EventHandler {
   std::map<YAML::anchor_t, Size> sizes_;  ///< of the values that aliases may repeat
 };
 
+/// What is read before there are values to measure. Brackets in texts count too, which does no
+/// harm: they do not stand so far apart.
+void check_length(const std::string& yaml, const std::string& origin) {
+  if (yaml.size() > kLongest) {
+    throw InputError(origin, Place::whole_file(), fmt::format("YAML of at most {} bytes", kLongest),
+                     fmt::format("{} bytes", yaml.size()));
+  }
+  std::size_t line = 1;
+  std::size_t depth = 0;
+  std::size_t opened = 0;
+  for (std::size_t i = 0; i < yaml.size(); ++i) {
+    const char c = yaml[i];
+    if (c == '\n') ++line;
+    if (c == '[' || c == '{') {
+      if (depth++ == 0) opened = i;
+    } else if ((c == ']' || c == '}') && depth > 0) {
+      --depth;
+    }
+    if (depth > 0 && i - opened > kLongestInBrackets) {
+      throw InputError(
+          origin, Place::line(line),
+          fmt::format("at most {} bytes between brackets (longer lists an item a line, with '-')",
+                      kLongestInBrackets),
+          "more");
+    }
+  }
+}
+
 }  // namespace
 
 void check_yaml(const std::string& yaml, const std::string& origin) {
+  check_length(yaml, origin);
   std::istringstream stream(yaml);
   Measure measure(origin);
   try {

@@ -39,12 +39,12 @@ bool AllocationGuard::check(std::size_t bytes) noexcept {
   AllocationGuard* const here = std::exchange(t_guard, nullptr);  // what the check takes is its own
   bool allowed = false;
   try {
-    allowed = bytes <= files::kMostBytesAtOnce && holds_(bytes / kMostRatio);
+    allowed = bytes <= files::kMostBytesAtOnce && holds_((taken_ + bytes) / kMostRatio);
   } catch (...) {
     allowed = false;
   }
   t_guard = here;
-  if (!allowed) refused_ = bytes;
+  (allowed ? taken_ : refused_) += bytes;
   return allowed;
 }
 

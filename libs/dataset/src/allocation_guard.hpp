@@ -15,7 +15,7 @@ namespace traverse::dataset {
 /// on. In the sanitizers' builds, whose operator new is their own, for coordinates and images only.
 class AllocationGuard {
  public:
-  /// Whether so many bytes follow in what is read.
+  /// Whether what is read holds so many bytes, from where it stood when the guard came.
   using Holds = std::function<bool(std::uint64_t bytes)>;
 
   explicit AllocationGuard(Holds holds);
@@ -46,6 +46,7 @@ class AllocationGuard {
 
   Holds holds_;
   AllocationGuard* outer_;
+  std::uint64_t taken_ = 0;  ///< in large pieces
   std::size_t refused_ = 0;
 };
 

@@ -121,18 +121,16 @@ void GzInput::go_to(std::uint64_t position) {
   }
 }
 
-bool GzInput::has_ahead(std::uint64_t count) {
+bool GzInput::reaches(std::uint64_t end) {
   const std::uint64_t buffered = position_ + (end_ - begin_);
-  const std::uint64_t wanted = position_ + count;
-  if (wanted < position_) return false;
-  if (wanted <= std::max(buffered, known_until_)) return true;
+  if (end <= std::max(buffered, known_until_)) return true;
   if (at_end_) return false;
-  if (::gzdirect(file_.get()) != 0) return wanted <= file_size_;
-  if (wanted - buffered > kMostGzipRatio * file_size_) return false;
+  if (::gzdirect(file_.get()) != 0) return end <= file_size_;
+  if (end - buffered > kMostGzipRatio * file_size_) return false;
   if (!ahead_file_) ahead_file_ = {::gzopen(path_.c_str(), "rb"), close_quietly};
   if (!ahead_file_) return false;
   std::vector<char> piece(kPiece);
-  while (known_until_ < wanted) {
+  while (known_until_ < end) {
     const int got = ::gzread(ahead_file_.get(), piece.data(), static_cast<unsigned>(piece.size()));
     if (got <= 0) return false;
     known_until_ += static_cast<std::uint64_t>(got);

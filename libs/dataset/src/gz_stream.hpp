@@ -32,8 +32,9 @@ class GzInput {
   /// that lies before is decompressed, on the way back from the beginning.
   void go_to(std::uint64_t position);
   double share_read() const;  ///< of the file on disk, 0 to 1
-  /// Whether `count` more bytes can be read. Found out by decompressing them, if need be.
-  bool has_ahead(std::uint64_t count);
+  /// Whether the bytes before `end` (uncompressed) are there. Found out by decompressing them, if
+  /// need be.
+  bool reaches(std::uint64_t end);
   /// What stopped a read: "the file is cut short", or what zlib says; empty as long as all is well.
   const std::string& fault() const { return fault_; }
 
@@ -67,7 +68,7 @@ class GzInput {
   bool things_follow_ = false;  ///< the last count was of things that may be four bytes together
   std::string fault_;
 
-  std::unique_ptr<gzFile_s, void (*)(gzFile_s*)> ahead_file_;  ///< of has_ahead(); or null
+  std::unique_ptr<gzFile_s, void (*)(gzFile_s*)> ahead_file_;  ///< of reaches(); or null
   std::uint64_t known_until_ = 0;  ///< bytes that are known to be there, uncompressed
 };
 

@@ -90,7 +90,7 @@ void load_guarded(const CObservationPointCloud& observation, const std::string& 
     if (!file) {
       file.emplace(std::filesystem::path(external_folder) / observation.getExternalStorageFile());
     }
-    return file->has_ahead(count);
+    return file->reaches(count);
   });
   try {
     observation.load();

@@ -92,7 +92,8 @@ std::optional<RawlogRecord> RawlogReader::next() {
   if (mrpt::rtti::findRegisteredClass(*class_name) == nullptr) {
     return stop(fmt::format("a record of the class {}, which MRPT does not know here", short_name));
   }
-  AllocationGuard guard([this](std::uint64_t bytes) { return stream_.has_ahead(bytes); });
+  AllocationGuard guard(
+      [this](std::uint64_t bytes) { return stream_.reaches(record_begin_ + bytes); });
   try {
     stream_.expect_counts_up_to(holds_only_counts(short_name) ? std::optional(kMostCounted)
                                                               : std::nullopt);

@@ -106,7 +106,7 @@ std::size_t for_each_keyframe(
                              const mrpt::obs::CSensoryFrame& frame)>& take) {
   GzInput stream(file);
   TakenOneByOne map(take);
-  AllocationGuard guard([&](std::uint64_t bytes) { return stream.has_ahead(bytes); });
+  AllocationGuard guard([&](std::uint64_t bytes) { return stream.reaches(bytes); });
   try {
     auto archive = mrpt::serialization::archiveFrom(stream);
     archive.ReadObject(&map);
