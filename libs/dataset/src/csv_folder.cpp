@@ -80,7 +80,8 @@ CsvRows read_rows(const fs::path& file, const CsvColumns& stated, double time_un
   const auto column_of = [&](std::string_view name) {
     const auto found = std::find(header.begin(), header.end(), name);
     if (found == header.end()) {
-      throw reader.error("a column " + files::in_quotes(name), reader.line());
+      constexpr std::size_t kShown = 500;
+      throw reader.error("a column " + files::in_quotes(name), reader.line().substr(0, kShown));
     }
     return static_cast<std::size_t>(found - header.begin());
   };
