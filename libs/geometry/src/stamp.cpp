@@ -45,9 +45,8 @@ double seconds_between(Stamp earlier, Stamp later) {
 Stamp shifted(Stamp stamp, double seconds) {
   if (std::isnan(seconds)) return stamp;
   const std::int64_t farthest = std::signbit(seconds) ? -kFarthest : kFarthest;
-  const std::int64_t by = std::abs(seconds) < kLargestSeconds
-                              ? static_cast<std::int64_t>(std::llround(seconds * 1e9))
-                              : farthest;
+  if (std::abs(seconds) >= kLargestSeconds) return {farthest};
+  const auto by = static_cast<std::int64_t>(std::llround(seconds * 1e9));
   std::int64_t nanoseconds = 0;
   if (__builtin_add_overflow(stamp.nanoseconds, by, &nanoseconds)) return {farthest};
   return {nanoseconds};
