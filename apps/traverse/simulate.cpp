@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -125,9 +126,10 @@ SweepRange choose_sweeps(const Simulation& simulation, const SimulateArguments& 
   SweepRange sweeps{arguments.first, std::min(arguments.last, all - 1) + 1};
   if (arguments.duration_s) {
     const double sweep_s = simulation.lidar().begin_s(1);
-    const auto count =
-        static_cast<std::size_t>(std::max(1.0, *arguments.duration_s / sweep_s + 0.5));
-    sweeps.end = std::min(sweeps.end, sweeps.first + count);
+    const double count = std::max(1.0, std::floor(*arguments.duration_s / sweep_s + 0.5));
+    if (sweeps.first < sweeps.end && count < static_cast<double>(sweeps.end - sweeps.first)) {
+      sweeps.end = sweeps.first + static_cast<std::size_t>(count);
+    }
   }
   if (sweeps.first >= sweeps.end) {
     throw std::runtime_error(

@@ -63,7 +63,8 @@ mrpt::obs::CObservationVelodyneScan to_observation(const LidarScan& scan,
   // Ticks from the stamp's own tick, so that times within the sweep are rounded once.
   const mrpt::Clock::time_point stamp = to_mrpt(scan.stamp);
   for (const float time : derived.time) {
-    const double ticks = std::isnan(time) ? 0 : time * 1e7;
+    constexpr double kFarthest = 1e10;  // ticks that a stamp can be moved by in any case
+    const double ticks = std::isnan(time) ? 0 : std::clamp(time * 1e7, -kFarthest, kFarthest);
     cloud.timestamp.push_back(stamp + mrpt::Clock::duration(std::llround(ticks)));
   }
   return observation;

@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <exception>
+#include <string>
 
 #include <mrpt/maps/CSimpleMap.h>
 
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 
+#include "allocation_guard.hpp"
 #include "gz_stream.hpp"
 #include "mrpt_values.hpp"
 
@@ -67,6 +69,7 @@ class TakenOneByOne final : public mrpt::maps::CSimpleMap {
 
  private:
   void take(const mrpt::poses::CPose3DPDF& pose, const mrpt::obs::CSensoryFrame& frame) {
+    const AllocationGuard::Pause pause;
     try {
       take_(taken_++, pose, frame);
     } catch (...) {
@@ -103,11 +106,16 @@ std::size_t for_each_keyframe(
                              const mrpt::obs::CSensoryFrame& frame)>& take) {
   GzInput stream(file);
   TakenOneByOne map(take);
+  AllocationGuard guard([&](std::uint64_t bytes) { return stream.reaches(bytes); });
   try {
     auto archive = mrpt::serialization::archiveFrom(stream);
     archive.ReadObject(&map);
   } catch (const std::exception& error) {
     if (map.error()) std::rethrow_exception(map.error());
+    if (const std::string refusal = guard.refusal(); !refusal.empty()) {
+      throw files::InputError(file, files::Place::whole_file(), "a simple map of MRPT",
+                              "a damaged one: " + refusal);
+    }
     throw files::InputError(file, files::Place::whole_file(), "a simple map of MRPT",
                             stream.fault().empty() ? message_of(error) : stream.fault());
   }

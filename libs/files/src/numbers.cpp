@@ -40,14 +40,14 @@ std::string to_text(double value) {
   return {buffer.data(), end};
 }
 
-std::vector<std::string_view> split_words(std::string_view line) {
+std::vector<std::string_view> split_words(std::string_view line, std::size_t most) {
   constexpr std::size_t kUsual = 12;  // of a pose or a point
   const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; };
   std::vector<std::string_view> words;
-  words.reserve(kUsual);
+  words.reserve(std::min(kUsual, most));
   for (auto at = line.begin();;) {
     const auto begin = std::find_if_not(at, line.end(), is_blank);
-    if (begin == line.end()) return words;
+    if (begin == line.end() || words.size() >= most) return words;
     at = std::find_if(begin, line.end(), is_blank);
     words.emplace_back(begin, at);
   }
