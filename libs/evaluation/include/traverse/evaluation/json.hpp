@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -44,5 +45,7 @@ std::string to_json(const Evaluation& evaluation);
 /// Reads it back; to_json() of the result is `text` again.
 /// \throws EvaluationError naming the key that is missing or of another kind.
 Evaluation from_json(std::string_view text);
+/// The same of a file. \throws files::InputError naming the file and the key.
+Evaluation read_evaluation(const std::filesystem::path& file);
 
 }  // namespace traverse::evaluation
