@@ -4,7 +4,6 @@
 #include <variant>
 
 #include "traverse/files/atomic_file.hpp"
-#include "traverse/pipeline/run_folder.hpp"
 #include "traverse/render/vector_file.hpp"
 
 #include "data_uri.hpp"
@@ -22,9 +21,7 @@ render::Style of_width(render::Style style, int width) {
 }  // namespace
 
 FigureMaker::FigureMaker(const RunData& run, const RunReportOptions& options)
-    : run_(run),
-      picture_drawn_(options.picture_drawn),
-      images_(pipeline::RunFolder{run.folder}.images()) {
+    : run_(run), picture_drawn_(options.picture_drawn), images_(run.folder.images()) {
   files::make_writable_folder(images_);
   light_ = of_width(light_, options.picture_width);
   dark_ = light_;

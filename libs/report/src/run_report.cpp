@@ -16,7 +16,7 @@ namespace traverse::report {
 std::optional<BudgetResult> write_run_report(const std::filesystem::path& run_folder,
                                              const std::filesystem::path& templates,
                                              const RunReportOptions& options) {
-  const RunData run = read_run(run_folder);
+  const RunData run = read_run(run_folder, pipeline::RunPart::kAll);
   const std::vector<RunFigure> figures = run_figures(run);
   std::optional<BudgetResult> budget;
   if (options.budget) budget = check_figures(*options.budget, figures);
