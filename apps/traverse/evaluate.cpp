@@ -19,7 +19,6 @@
 #include "traverse/evaluation/table.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/numbers.hpp"
-#include "traverse/files/text_file.hpp"
 
 #include "budget_option.hpp"
 #include "commands.hpp"
@@ -151,16 +150,11 @@ void choose_rpe(const Arguments& arguments, evaluation::EvaluationOptions& optio
 void take_frame_of_run(const fs::path& run, evaluation::KittiDriftOptions& options) {
   const fs::path file = run / "evaluation.json";
   if (!fs::exists(file)) return;
-  try {
-    const auto evaluation = evaluation::from_json(files::read_text(file));
-    if (!evaluation.comparison || !evaluation.comparison->kitti) return;
-    const evaluation::KittiDrift& kitti = *evaluation.comparison->kitti;
-    options.T_body_camera = kitti.T_body_camera;
-    (kitti.T_body_camera ? options.camera_frame : options.body_frame) = kitti.frame;
-  } catch (const evaluation::EvaluationError& error) {
-    throw files::InputError(file, files::Place::whole_file(), "the evaluation of the run",
-                            error.what());
-  }
+  const auto evaluation = evaluation::read_evaluation(file);
+  if (!evaluation.comparison || !evaluation.comparison->kitti) return;
+  const evaluation::KittiDrift& kitti = *evaluation.comparison->kitti;
+  options.T_body_camera = kitti.T_body_camera;
+  (kitti.T_body_camera ? options.camera_frame : options.body_frame) = kitti.frame;
 }
 
 void read_into(evaluation::TrajectoryStore& trajectory, const fs::path& file,

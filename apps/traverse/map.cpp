@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <filesystem>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -16,9 +15,8 @@
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/mapping/map_folder.hpp"
-#include "traverse/mapping/map_origin.hpp"
 #include "traverse/mapping/merge_runs.hpp"
-#include "traverse/pipeline/run_folder.hpp"
+#include "traverse/pipeline/run_keyframes.hpp"
 
 #include "commands.hpp"
 #include "progress_bar.hpp"
@@ -26,8 +24,6 @@
 namespace traverse::app {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr const char* kExamples = R"(Examples:
   traverse map RUN -o MAP                        map.ply, map.simplemap, grid.png and grid.yaml
@@ -58,19 +54,6 @@ struct MapArguments {
   bool keep_moving = false;
   bool no_grid = false;
 };
-
-fs::path simple_map_of(const fs::path& run) {
-  if (!fs::is_directory(run)) return run;
-  const pipeline::RunFolder folder{run};
-  // Keyframes of slam are denser.
-  return fs::exists(folder.keyframes()) ? folder.keyframes() : folder.simple_map();
-}
-
-std::optional<geodesy::Geodetic> origin_of(const fs::path& run) {
-  const fs::path file = pipeline::RunFolder{run}.origin();
-  if (!fs::exists(file)) return std::nullopt;
-  return mapping::read_map_origin(file);
-}
 
 void bind(config::Binder& b, MapSettings& settings) {
   bind(b, settings.map);
@@ -127,8 +110,7 @@ std::vector<mapping::MapKeyframe> keyframes_of(const std::vector<std::string>& r
                                                const mapping::MergeOptions& options,
                                                StageBars& bars) {
   std::vector<std::vector<mapping::MapKeyframe>> by_run;
-  for (const std::string& run : runs)
-    by_run.push_back(mapping::read_simple_map(simple_map_of(run)));
+  for (const std::string& run : runs) by_run.push_back(pipeline::read_map_keyframes(run));
   if (by_run.size() == 1) return std::move(by_run.front());
   mapping::MergedRuns merged;
   try {
@@ -183,7 +165,8 @@ void make_map(const MapArguments& arguments) {
   StageBars bars;
   auto keyframes = keyframes_of(arguments.runs, settings.merge, bars);
   const auto summary = mapping::write_map(
-      {output.temporary_path()}, std::move(keyframes), origin_of(arguments.runs.front()), options,
+      {output.temporary_path()}, std::move(keyframes),
+      pipeline::read_origin({arguments.runs.front()}), options,
       [&](const std::string& stage, double share) { bars.update(stage, share); });
   output.commit();
   bars.finish();

@@ -14,6 +14,7 @@
 #include "traverse/evaluation/json.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
+#include "traverse/files/json_document.hpp"
 #include "traverse/files/text_file.hpp"
 #include "traverse/optimization/jacobian_audit.hpp"
 #include "traverse/pipeline/frame_table.hpp"
@@ -223,7 +224,8 @@ TEST_F(RunTest, TellsNorthThroughTheReference) {
 TEST_F(RunTest, ChecksTheJacobiansOfTheFactorsThatTheEstimatorUses) {
   estimator_->uses = {{"plane absolute", optimization::Perturbation::kLeft}};
   run_all();
-  const auto audit = optimization::audit_from_json(files::read_text(run_folder_.jacobians()));
+  const auto audit =
+      optimization::audit_from_json(files::JsonDocument::read(run_folder_.jacobians()).root());
   ASSERT_EQ(audit.factors.size(), 1U);
   EXPECT_EQ(audit.factors[0].factor, "plane absolute");
   EXPECT_EQ(audit.factors[0].perturbation, optimization::Perturbation::kLeft);

@@ -42,7 +42,7 @@ class MadeRun {
   }
 
   ReportModel model() const {
-    const RunData run = read_run(folder.path());
+    const RunData run = read_run(folder.path(), pipeline::RunPart::kAll);
     const auto worst =
         evaluation::worst_segments(run.evaluation, run.frames.column("residual_rms_m"));
     return make_model(run, run_figures(run), worst, nullptr);
@@ -167,7 +167,7 @@ TEST(Page, EveryNumberIsThatOfTheJson) {
 
 TEST(ReportJson, AgreesWithEvaluationAndFrames) {
   const MadeRun run(0.1);
-  const RunData data = read_run(run.folder.path());
+  const RunData data = read_run(run.folder.path(), pipeline::RunPart::kAll);
   const Json json = run.model().model.json;
   const auto& ape = data.evaluation.comparison->ape.front();
   EXPECT_EQ(json["figures"]["ape_rmse_m"]["value"], ape.statistics.rmse);
@@ -190,7 +190,7 @@ TEST(ReportJson, AgreesWithEvaluationAndFrames) {
 
 TEST(Page, NumbersAreThoseOfTheEvaluation) {
   const MadeRun run(0.1);
-  const RunData data = read_run(run.folder.path());
+  const RunData data = read_run(run.folder.path(), pipeline::RunPart::kAll);
   const auto& ape = data.evaluation.comparison->ape.front().statistics;
   const std::string page = run.page();
   for (const double value : {ape.rmse, ape.mean, ape.median, ape.std, ape.max}) {
@@ -258,7 +258,7 @@ TEST(RunReport, DrawsMapsLargeForPaperBesideThePage) {
 TEST(RunReport, ShowsHowFramesOfTheWorstSegmentsWereRegistered) {
   const MadeRun run(0.1);
   const pipeline::RunFolder files{run.folder.path()};
-  const RunData data = read_run(run.folder.path());
+  const RunData data = read_run(run.folder.path(), pipeline::RunPart::kAll);
   const auto worst = evaluation::worst_segments(data.evaluation, {}).segments.at(1);
   const auto frame = static_cast<std::uint32_t>(worst.first + 3);  // made frames count from 0
   dataset::PointCloud cloud;

@@ -14,13 +14,13 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "traverse/batch/metric.hpp"
 #include "traverse/batch/run_process.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/digest.hpp"
 #include "traverse/files/input_error.hpp"
+#include "traverse/files/json_document.hpp"
 #include "traverse/files/numbers.hpp"
 #include "traverse/files/unfinished.hpp"
 #include "traverse/pipeline/provenance.hpp"
@@ -73,10 +73,13 @@ struct RunStatus {
 };
 
 RunStatus status_of(const fs::path& run_folder) {
-  std::ifstream stream(pipeline::RunFolder{run_folder}.record());
-  const auto record = nlohmann::json::parse(stream, nullptr, /*allow_exceptions=*/false);
-  if (!record.is_object()) return {};
-  return {record.value("status", ""), record.value("reason", "")};
+  try {
+    const auto document = files::JsonDocument::read(pipeline::RunFolder{run_folder}.record());
+    const files::JsonValue record = document.root();
+    return {record["status"].text(), record.has("reason") ? record["reason"].text() : ""};
+  } catch (const files::InputError&) {
+    return {};  // a run that crashed before it wrote its record, or while it did
+  }
 }
 
 /// How often the system killed something because memory ran out.

@@ -10,7 +10,6 @@
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/text_file.hpp"
-#include "traverse/pipeline/run_folder.hpp"
 #include "traverse/render/pictures/trajectory_from_above.hpp"
 #include "traverse/render/renderer.hpp"
 
@@ -39,9 +38,8 @@ void require_same_recording(const ComparedRun& baseline, const ComparedRun& run)
   const bool same = both_hashed ? identity(baseline.data) == identity(run.data)
                                 : baseline.data.recording_name() == run.data.recording_name();
   if (same) return;
-  throw files::InputError(pipeline::RunFolder{run.data.folder}.record(),
-                          files::Place::key("recording"),
-                          "a run of the recording of " + baseline.data.folder.string() + ", " +
+  throw files::InputError(run.data.folder.record(), files::Place::key("recording"),
+                          "a run of the recording of " + baseline.data.folder.path.string() + ", " +
                               baseline.data.recording_name(),
                           run.data.recording_name());
 }
@@ -56,7 +54,7 @@ std::vector<ComparedRun> read_runs(const std::vector<fs::path>& folders) {
              (other.has_filename() ? other : other.parent_path()).filename() == plain.filename();
     });
     if (taken) name = plain.string();
-    ComparedRun run{std::move(name), read_run(folder), {}};
+    ComparedRun run{std::move(name), read_run(folder, pipeline::RunPart::kFigures), {}};
     run.figures = run_figures(run.data);
     runs.push_back(std::move(run));
     require_same_recording(runs.front(), runs.back());
@@ -207,7 +205,7 @@ std::string write_comparison(const std::vector<fs::path>& folders, const fs::pat
   Json names = Json::array();
   for (const ComparedRun& run : runs) {
     names.push_back({{"name", run.name},
-                     {"folder", run.data.folder.string()},
+                     {"folder", run.data.folder.path.string()},
                      {"pipeline", run.data.pipeline_name()}});
   }
   model.json["runs"] = std::move(names);

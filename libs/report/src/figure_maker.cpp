@@ -6,7 +6,6 @@
 #include <variant>
 
 #include "traverse/files/atomic_file.hpp"
-#include "traverse/pipeline/run_folder.hpp"
 #include "traverse/render/vector_file.hpp"
 
 #include "data_uri.hpp"

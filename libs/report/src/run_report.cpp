@@ -41,8 +41,8 @@ void move_into_place(const pipeline::RunFolder& made, const pipeline::RunFolder&
 std::optional<BudgetResult> write_run_report(const std::filesystem::path& run_folder,
                                              const std::filesystem::path& templates,
                                              const RunReportOptions& options) {
-  RunData run = read_run(run_folder);
-  if (!options.folder_on_page.empty()) run.folder = options.folder_on_page;
+  RunData run = read_run(run_folder, pipeline::RunPart::kAll);
+  if (!options.folder_on_page.empty()) run.folder = {options.folder_on_page};
   const std::vector<RunFigure> figures = run_figures(run);
   std::optional<BudgetResult> budget;
   if (options.budget) budget = check_figures(*options.budget, figures);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <iosfwd>
 #include <string>
 #include <string_view>
@@ -48,5 +49,7 @@ void write_json(const Evaluation& evaluation, std::ostream& stream);
 /// Reads it back; to_json() of the result is `text` again.
 /// \throws EvaluationError naming the key that is missing or of another kind.
 Evaluation from_json(std::string_view text);
+/// The same of a file. \throws files::InputError naming the file and the key.
+Evaluation read_evaluation(const std::filesystem::path& file);
 
 }  // namespace traverse::evaluation
