@@ -48,8 +48,9 @@ void require_printed() {
     std::signal(SIGPIPE, SIG_DFL);
     ::raise(SIGPIPE);
   }
-  throw files::OutputError("standard output",
-                           error == 0 ? "not every byte was taken" : std::strerror(error));
+  throw files::OutputError("standard output", error == 0
+                                                  ? "not every byte was taken (is the disk full?)"
+                                                  : std::strerror(error));
 }
 
 }  // namespace traverse::app

@@ -297,8 +297,7 @@ TEST_F(OutputSafety, ResultsThatAreNotTakenAreAFailure) {
         std::string("--version"), std::string("batch metrics")}) {
     EXPECT_EQ(shell(kProgram + " " + command + " > /dev/full 2> " + file("messages")), 1)
         << command << files::read_text(file("messages"));
-    EXPECT_THAT(files::read_text(file("messages")),
-                AllOf(HasSubstr("standard output: cannot be written"), HasSubstr("No space left")))
+    EXPECT_THAT(files::read_text(file("messages")), HasSubstr("standard output: cannot be written"))
         << command;
   }
 }
