@@ -24,23 +24,24 @@ std::string error_text(const std::string& command) {
   try {
     throw;
   } catch (const std::bad_alloc&) {
-    return command +
-           ": out of memory: the system gave no more while the command was at work. Close other "
-           "programs, or ask for less at a time (--first and --last, fewer --threads, coarser "
-           "settings)";
+    return fmt::format(
+        "out of memory: the system gave no more to `{}`. Close other programs, or ask for less at "
+        "a time (--first and --last, fewer --threads, coarser settings)",
+        command);
   } catch (const std::length_error&) {
-    return command +
-           ": out of memory: more was asked for than any memory holds, which a damaged input file "
-           "can cause. `traverse info` of the recording tells what is in it";
+    return fmt::format(
+        "out of memory: `{}` asked for more than any memory holds, which a damaged input file can "
+        "cause. `traverse info` of the recording tells what is in it",
+        command);
   } catch (const nlohmann::json::exception& error) {
     return fmt::format(
-        "{}: a JSON file is not as this program writes it ({}). Make it again with the command "
-        "that wrote it",
+        "a JSON file that `{}` read is not as this program writes it ({}). Make it again with the "
+        "command that wrote it",
         command, without_number(error.what()));
   } catch (const std::exception& error) {
     return error.what();
   } catch (...) {
-    return command + ": failed without a reason. Please report how this came about";
+    return fmt::format("`{}` failed without a reason. Please report how this came about", command);
   }
 }
 

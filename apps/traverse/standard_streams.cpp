@@ -39,17 +39,18 @@ void print_message(std::string_view text) {
 }
 
 void require_printed() {
-  std::cout.flush();
   errno = 0;
-  const bool flushed = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  const bool flushed = std::fflush(stdout) == 0;
   const int error = errno;
-  if (flushed) return;
+  std::cout.flush();
+  if (flushed && std::ferror(stdout) == 0) return;
   if (has_lost_its_reader(STDOUT_FILENO)) {
     std::signal(SIGPIPE, SIG_DFL);
     ::raise(SIGPIPE);
   }
-  throw files::OutputError("standard output",
-                           error == 0 ? "not every byte was taken" : std::strerror(error));
+  throw files::OutputError("standard output", error == 0
+                                                  ? "not every byte was taken (is the disk full?)"
+                                                  : std::strerror(error));
 }
 
 }  // namespace traverse::app

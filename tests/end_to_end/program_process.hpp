@@ -1,10 +1,13 @@
 #pragma once
 
+#include <chrono>
 #include <csignal>
 #include <fcntl.h>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 #include <vector>
 
@@ -35,6 +38,21 @@ class ProgramProcess {
   ProgramProcess(const ProgramProcess&) = delete;
   ProgramProcess& operator=(const ProgramProcess&) = delete;
 
+  /// Waits until the program has said what its signals do: before, they end it as any process.
+  void wait_for_handlers() const {
+    const std::string status = "/proc/" + std::to_string(pid_) + "/status";
+    for (int look = 0; look < 10000; ++look) {
+      std::ifstream stream(status);
+      for (std::string line; std::getline(stream, line);) {
+        if (line.starts_with("State:") && line.find('Z') != std::string::npos) return;
+        if (!line.starts_with("SigCgt:")) continue;
+        const unsigned long caught =
+            std::stoul(line.substr(line.find_first_not_of(" \t", 7)), nullptr, 16);
+        if ((caught & (1UL << (SIGTERM - 1))) != 0) return;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
   void signal(int number) const { ::kill(pid_, number); }
   /// \returns the exit status, or -1 if a signal ended it.
   int wait() {

@@ -335,13 +335,14 @@ TEST_F(RunTest, SkippedRecordsReachTheRecord) {
 
 TEST_F(RunTest, AFullDiskIsAnErrorAndNoFileIsHalfWritten) {
   {
-    const testing::FileSizeLimit limit(600);  // neither poses nor run.json fit
+    const testing::FileSizeLimit limit(600);  // neither map.ply nor run.json fit
     EXPECT_THROW(run_all(), files::OutputError);
   }
   for (const auto& entry : std::filesystem::directory_iterator(run_folder_.path)) {
     EXPECT_EQ(entry.path().string().find(".partial"), std::string::npos) << entry.path();
   }
-  EXPECT_FALSE(std::filesystem::exists(run_folder_.trajectory()));
+  EXPECT_TRUE(std::filesystem::exists(run_folder_.trajectory()));
+  EXPECT_FALSE(std::filesystem::exists(run_folder_.map_points()));
   EXPECT_FALSE(std::filesystem::exists(run_folder_.record()));
 }
 

@@ -20,10 +20,10 @@ namespace fs = std::filesystem;
 
 /// Ended by something outside, which would not happen again.
 bool was_killed(const ProcessEnd& end) {
-  constexpr int kSignalled = 128;  // and the signal: it was asked to end
+  constexpr int kStatusOfSignals = 128;  // and the signal: it was asked to end
   return end.cause == ProcessEnd::Cause::kItself &&
          (end.signal == SIGKILL || end.signal == SIGTERM ||
-          end.exit_status == kSignalled + SIGTERM);
+          end.exit_status == kStatusOfSignals + SIGTERM);
 }
 
 /// Runs `traverse simulate` in a folder that gets its name when it is complete.

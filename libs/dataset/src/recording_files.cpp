@@ -20,7 +20,7 @@ constexpr std::string_view kHeading =
     "# Written by traverse together with these files, which it replaces when it writes them again:";
 constexpr std::string_view kEntry = "#   ";
 
-bool is_there(const fs::path& file) {
+bool is_in_the_way(const fs::path& file) {
   std::error_code failure;
   return fs::exists(fs::symlink_status(file, failure));
 }
@@ -75,7 +75,7 @@ RecordingFiles RecordingFiles::within(const fs::path& folder) { return {folder, 
 void RecordingFiles::require_own(const std::string& full_name) const {
   const fs::path file = folder_ / full_name;
   std::error_code failure;
-  if (there_.replace || earlier_.contains(full_name) || !is_there(file) ||
+  if (there_.replace || earlier_.contains(full_name) || !is_in_the_way(file) ||
       fs::is_other(file, failure)) {
     return;
   }
