@@ -143,9 +143,11 @@ void add_floats(const std::string& file, const std::string& bytes, std::vector<D
   const std::string element = "element vertex ";
   const std::size_t count = bytes.find(element) + element.size();
   const std::size_t length = bytes.find('\n', count) - count;
-  for (const char* number : {"0", "7", "4000000000", "-1"}) {
-    list.push_back({file, std::string("says that there are ") + number,
-                    replaced(bytes, count, length, number), true});
+  for (const std::string number : {"0", "7", "4000000000", "-1"}) {
+    // How many points there were is known of the map alone.
+    const bool is_harmful = number != "7" || file == "map.ply";
+    list.push_back({file, "says that there are " + number, replaced(bytes, count, length, number),
+                    is_harmful});
   }
 }
 
@@ -362,7 +364,10 @@ TEST_F(DamagedRunFolders, AFileThatACommandDoesNotNeedDoesNotStopIt) {
 }
 
 TEST_F(DamagedRunFolders, WhatIsReadAllTheSameCanBeDrawn) {
+  const std::set<std::string> drawn{"evaluation.json", "frames.csv", "loops.csv",
+                                    "map.ply",         "scan.ply",   "worst_frames.ply"};
   for (const Damage& damage : damages()) {
+    if (!drawn.contains(damage.file)) continue;
     const pipeline::RunFolder folder = damaged(damage);
     if (!message_of(Command::kReport, folder).empty()) continue;
     SCOPED_TRACE(damage.file + ", " + damage.what);

@@ -128,6 +128,11 @@ std::optional<dataset::PointCloud> read_points(const fs::path& file) {
   return cloud;
 }
 
+/// A run leaves no file of nothing.
+void require_points(const dataset::PointCloud& cloud, const fs::path& file) {
+  if (cloud.size() == 0) throw InputError(file, Place::whole_file(), "at least one point", "none");
+}
+
 void read_other_files(RunContents& run) {
   const RunFolder& folder = run.folder;
   const files::JsonDocument record = files::JsonDocument::parse(run.record_json, folder.record());
@@ -139,11 +144,15 @@ void read_other_files(RunContents& run) {
   }
   run.sample_scan = read_points(folder.sample_scan());
   if (run.sample_scan) {
+    require_points(*run.sample_scan, folder.sample_scan());
     require_values_if_there(*run.sample_scan, folder.sample_scan(), "feature_class", 0, 4,
                             IsWhole::kYes);
   }
   run.worst_frames = read_points(folder.worst_frames());
-  if (run.worst_frames) require_worst_frames(*run.worst_frames, folder, run.frames);
+  if (run.worst_frames) {
+    require_points(*run.worst_frames, folder.worst_frames());
+    require_worst_frames(*run.worst_frames, folder, run.frames);
+  }
   if (fs::exists(folder.jacobians())) {
     run.jacobians =
         optimization::audit_from_json(files::JsonDocument::read(folder.jacobians()).root());
