@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -22,6 +24,8 @@
 #include "progress_bar.hpp"
 
 namespace traverse::app {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -139,11 +143,11 @@ std::vector<mapping::MapKeyframe> keyframes_of(const std::vector<std::string>& r
 void refuse_to_replace_an_input(const MapArguments& arguments) {
   for (const std::string& run : arguments.runs) {
     std::error_code failure;
-    const fs::path input = simple_map_of(run);
-    if (fs::equivalent(input.parent_path(), arguments.destination, failure)) {
-      throw files::OutputError(
-          arguments.destination,
-          fmt::format("{} is read from it. Choose another folder", input.filename().string()));
+    const fs::path input = fs::absolute(run);
+    const fs::path folder = fs::is_directory(input, failure) ? input : input.parent_path();
+    if (fs::equivalent(folder, arguments.destination, failure)) {
+      throw files::OutputError(arguments.destination,
+                               fmt::format("{} is read from it. Choose another folder", run));
     }
   }
 }
