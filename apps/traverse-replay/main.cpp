@@ -10,10 +10,13 @@
 #include "traverse/replay/script.hpp"
 
 #include "console.hpp"
+#include "error_text.hpp"
+#include "interruption.hpp"
 #include "message_window.hpp"
 #include "open_request.hpp"
 #include "replay_window.hpp"
 #include "script_runner.hpp"
+#include "standard_streams.hpp"
 
 namespace traverse::app {
 
@@ -45,7 +48,7 @@ void print_report(const RedrawReport& report) {
         report.redraws, report.seconds, static_cast<double>(report.redraws) / report.seconds,
         report.most_points, 1000 * report.longest_s);
   }
-  if (report.gl_errors > 0) fmt::print(stderr, "OpenGL errors: {}\n", report.gl_errors);
+  if (report.gl_errors > 0) print_message("OpenGL errors: {}\n", report.gl_errors);
 }
 
 /// At the first rounds of the window not even the first frame may be known.
@@ -80,15 +83,15 @@ int run_window(const OpenRequest& request, replay::Player& player, const std::st
           script.reset();
         }
       }
-    } catch (const std::exception& error) {
-      fmt::print(stderr, "traverse-replay: {}\n", error.what());
+    } catch (const std::exception&) {
+      print_message("traverse-replay: {}\n", error_text("traverse-replay"));
       status = kFailure;
     }
     if (request.headless) print_report(window->report());
     if (window->report().gl_errors > 0) status = kFailure;
     const std::string error = player.status().error;
     if (request.headless && !error.empty()) {
-      fmt::print(stderr, "traverse-replay: {}\n", error);
+      print_message("traverse-replay: {}\n", error);
       status = kFailure;
     }
   }
@@ -104,16 +107,16 @@ int replay_file(const OpenRequest& request) {
     options.threads = request.threads;
     options.keep_index = request.keep_index;
     player.emplace(open(request), options);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "traverse-replay: {}\n", error.what());
-    std::fflush(stderr);
-    if (!request.headless) show_message("Traverse replay: nothing to show", error.what());
+  } catch (const std::exception&) {
+    print_message("traverse-replay: {}\n", error_text("traverse-replay"));
+    if (!request.headless)
+      show_message("Traverse replay: nothing to show", error_text("traverse-replay"));
     return kFailure;
   }
   if (glfwInit() == GLFW_FALSE) {
-    fmt::print(stderr,
-               "traverse-replay: no display to open a window on; under "
-               "`xvfb-run traverse-replay ...` there is one\n");
+    print_message(
+        "traverse-replay: no display to open a window on; under "
+        "`xvfb-run traverse-replay ...` there is one\n");
     return kFailure;
   }
   return run_window(request, *player,
@@ -125,7 +128,10 @@ int replay_file(const OpenRequest& request) {
 }  // namespace traverse::app
 
 int main(int argc, char** argv) {
+  using traverse::app::kFailure;
   using traverse::app::kUsage;
+  traverse::app::prepare_standard_streams();
+  traverse::app::end_on_signals();
   CLI::App app{"Traverse replay: a window on a recording, with the estimator at work in it",
                "traverse-replay"};
   app.set_version_flag("--version", TRAVERSE_VERSION);
@@ -134,24 +140,30 @@ int main(int argc, char** argv) {
   bool help_script = false;
   traverse::app::add_options(app, request);
   app.add_flag("--help-script", help_script, "list the commands of a script and exit");
+  int status = kFailure;
   try {
-    app.parse(argc, argv);
-    if (help_script) {
-      traverse::app::print_script_help();
-      return 0;
+    try {
+      app.parse(argc, argv);
+      if (request.file_or_run.empty() && !help_script) throw CLI::RequiredError("FILE|RUN");
+      if (request.headless && request.script.empty() && !help_script) {
+        throw CLI::ValidationError("--headless", "needs --script");
+      }
+      if (help_script) {
+        traverse::app::print_script_help();
+        status = 0;
+      } else {
+        status = traverse::app::replay_file(request);
+      }
+    } catch (const CLI::ParseError& error) {
+      status = app.exit(error) == 0 ? 0 : kUsage;
     }
-    if (request.file_or_run.empty()) throw CLI::RequiredError("FILE|RUN");
-    if (request.headless && request.script.empty()) {
-      throw CLI::ValidationError("--headless", "needs --script");
-    }
-  } catch (const CLI::ParseError& error) {
-    const int status = app.exit(error);
-    return status == 0 ? 0 : kUsage;
+    traverse::app::wait_if_ending();
+    traverse::app::require_printed();
+  } catch (...) {
+    traverse::app::wait_if_ending();
+    traverse::app::print_message("traverse-replay: {}\n",
+                                 traverse::app::error_text("traverse-replay"));
+    return kFailure;
   }
-  try {
-    return traverse::app::replay_file(request);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "traverse-replay: {}\n", error.what());
-    return traverse::app::kFailure;
-  }
+  return status;
 }

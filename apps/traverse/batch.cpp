@@ -1,8 +1,6 @@
 #include "traverse/batch/batch.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -24,24 +22,14 @@
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "installed_files.hpp"
+#include "interruption.hpp"
+#include "standard_streams.hpp"
 
 namespace traverse::app {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-std::atomic<bool> stop_requested{false};
-
-/// The first SIGINT or SIGTERM asks for an orderly end; a second one kills.
-void stop_in_order_on_signals() {
-  for (const int signal : {SIGINT, SIGTERM}) {
-    std::signal(signal, [](int received) {
-      stop_requested = true;
-      std::signal(received, SIG_DFL);
-    });
-  }
-}
 
 struct BatchArguments {
   std::string plan;
@@ -135,12 +123,16 @@ void run_plan(const BatchArguments& arguments, const std::vector<std::string>& c
   options.baseline = arguments.baseline;
   if (arguments.executor == "slurm") options.executor = batch::Executor::kSlurm;
 
-  stop_in_order_on_signals();
+  const bool is_local = options.executor == batch::Executor::kLocal;
+  const OrderlyStop stop([is_local] {
+    return is_local ? std::string("stopping: runs at work are given up, what is finished stays")
+                    : std::string("stopping to wait; the array goes on");
+  });
   batch::BatchEnd end;
   {
     BatchProgress progress(folder);
     batch::BatchObserver observer;
-    observer.stop = &stop_requested;
+    observer.stop = &stop.requested();
     observer.preparing = [&](const std::string& text) { progress.preparing(text); };
     observer.began = [&](const batch::BatchState& state) { progress.began(state); };
     observer.finished = [&](const auto& state, const auto& job, const auto& completion) {
@@ -156,10 +148,11 @@ void run_plan(const BatchArguments& arguments, const std::vector<std::string>& c
   fmt::print("results    {}\nreport     {}\n", folder.results_csv().string(),
              folder.report().string());
   if (end.stopped) {
-    throw std::runtime_error(arguments.executor == "slurm"
-                                 ? "stopped waiting; the array goes on (`traverse batch cancel` "
-                                   "ends it)"
-                                 : "stopped; the same command goes on from here");
+    print_message("traverse: {}\n",
+                  is_local
+                      ? "stopped; the same command goes on from here"
+                      : "stopped waiting; the array goes on (`traverse batch cancel` ends it)");
+    throw CLI::RuntimeError(stop.exit_status());
   }
   const std::string wrong = complaint(end, shard.of == 1 && arguments.wait);
   if (!wrong.empty()) throw std::runtime_error(wrong);
@@ -246,11 +239,12 @@ void add_task(CLI::App& batch) {
   command->add_option("--task", arguments->task.task)->required();
   command->add_option("--runs-per-task", arguments->task.runs_per_task);
   command->callback([arguments] {
-    stop_in_order_on_signals();
+    const OrderlyStop stop([] { return std::string("stopping: the run at work is given up"); });
     const batch::BatchFolder folder{arguments->folder};
     batch::Journal journal(folder.journals());
     arguments->task.list = arguments->list;
-    batch::run_task(arguments->task, {this_program(), folder, journal, stop_requested});
+    batch::run_task(arguments->task, {this_program(), folder, journal, stop.requested()});
+    if (stop.requested()) throw CLI::RuntimeError(stop.exit_status());
   });
 }
 

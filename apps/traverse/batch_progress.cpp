@@ -1,7 +1,6 @@
 #include "batch_progress.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -10,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "traverse/batch/execute.hpp"
+
+#include "standard_streams.hpp"
 
 namespace traverse::app {
 
@@ -91,13 +92,13 @@ std::string BatchProgress::total_text(const batch::BatchState& state) const {
 
 void BatchProgress::erase() {
   if (lines_ == 0) return;
-  fmt::print(stderr, "\x1b[{}F\x1b[J", lines_);
+  print_message("\x1b[{}F\x1b[J", lines_);
   lines_ = 0;
 }
 
 void BatchProgress::print_line(const std::string& text) {
   erase();
-  fmt::print(stderr, "{}\n", text);
+  print_message("{}\n", text);
 }
 
 void BatchProgress::preparing(const std::string& text) { print_line(text + " ..."); }
@@ -144,8 +145,7 @@ void BatchProgress::tick(const batch::BatchState& state,
     ++lines;
   }
   erase();
-  fmt::print(stderr, "{}", text);
-  std::fflush(stderr);
+  print_message("{}", text);
   lines_ = lines;
 }
 

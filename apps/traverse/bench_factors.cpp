@@ -11,10 +11,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "traverse/files/atomic_file.hpp"
-
 #include "commands.hpp"
 #include "factor_measurement.hpp"
+#include "json_output.hpp"
 #include "recording_options.hpp"
 #include "table.hpp"
 
@@ -123,7 +122,7 @@ void bench_factors(Arguments& arguments) {
     bench = measure_on_recording(*source, 0, arguments.frame, arguments.repeats);
   }
   print(bench);
-  if (arguments.json) files::write_text(*arguments.json, to_json(bench));
+  if (arguments.json) write_json_output(*arguments.json, to_json(bench));
 }
 
 }  // namespace

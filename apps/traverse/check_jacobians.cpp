@@ -10,11 +10,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "traverse/files/atomic_file.hpp"
 #include "traverse/optimization/jacobian_audit.hpp"
 #include "traverse/pipeline/factor_kinds.hpp"
 
 #include "commands.hpp"
+#include "json_output.hpp"
 #include "table.hpp"
 
 namespace traverse::app {
@@ -91,7 +91,7 @@ void check_jacobians(const Arguments& arguments) {
       "Analytic Jacobians against automatic ones and central differences, {} random states "
       "(seed {})\n\n{}\n",
       audit.options.states, audit.options.seed, table_text(audit));
-  if (arguments.json) files::write_text(*arguments.json, to_json(audit));
+  if (arguments.json) write_json_output(*arguments.json, to_json(audit));
   if (!audit.passed()) {
     fmt::print("FAIL\n");
     throw std::runtime_error("Jacobians are wrong:" + failures(audit));

@@ -29,6 +29,7 @@ struct ConvertOptions {
   std::string format = "pcd";
   std::string lidar;
   int gzip_level = 1;
+  bool force = false;
   std::size_t first = 0;
   std::size_t last = std::numeric_limits<std::size_t>::max();
 };
@@ -44,7 +45,8 @@ constexpr const char* kExamples = R"(Examples:
 A destination that ends in .rawlog is written as a rawlog, with its facts in X.traverse.yaml, its
 reference trajectory in X.reference.tum and its camera in X.calib.txt beside it. One that ends in .txt
 becomes a text log with lines IMU, ODOM and GNSS, and its mountings in X.traverse.yaml. Any other
-destination becomes a folder, which must not be there yet or be empty.)";
+destination becomes a folder, which must not be there yet or be empty. Files of an earlier conversion
+are replaced when the new ones are complete; files that this program did not write are refused.)";
 
 bool is_log(const fs::path& destination) { return destination.extension() == ".txt"; }
 bool is_rawlog(const fs::path& destination) { return destination.extension() == ".rawlog"; }
@@ -65,12 +67,14 @@ std::string choose_lidar(const Source& source, const std::string& wanted) {
 
 std::unique_ptr<RecordingWriter> open_writer(const Source& source, const ConvertOptions& options,
                                              const std::string& lidar) {
+  const dataset::FilesThere there{options.force, {}};
   if (is_rawlog(options.destination)) {
     return dataset::write_rawlog(options.destination, source.info(), source.reference(),
-                                 {options.gzip_level});
+                                 {options.gzip_level, there});
   }
   if (is_log(options.destination)) {
-    return dataset::write_navigation_log(options.destination, source.info(), source.reference());
+    return dataset::write_navigation_log(options.destination, source.info(), source.reference(),
+                                         there);
   }
   if (lidar.empty()) {
     throw std::runtime_error("a folder holds lidar scans, and the recording has no lidar");
@@ -145,6 +149,9 @@ void add_convert(CLI::App& app) {
   command->add_option("--last", options->last, "last frame, included")
       ->check(CLI::NonNegativeNumber)
       ->option_text("N");
+  command->add_flag(
+      "--force", options->force,
+      "replace files at and beside X.rawlog or X.txt that this program did not write");
   command->footer(kExamples);
   command->callback([options] { run_convert(*options); });
 }

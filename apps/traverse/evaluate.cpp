@@ -17,13 +17,12 @@
 #include "traverse/dataset/trajectory_files.hpp"
 #include "traverse/evaluation/json.hpp"
 #include "traverse/evaluation/table.hpp"
-#include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/numbers.hpp"
-#include "traverse/files/text_file.hpp"
 
 #include "budget_option.hpp"
 #include "commands.hpp"
+#include "json_output.hpp"
 
 namespace traverse::app {
 
@@ -43,7 +42,8 @@ ESTIMATE and REFERENCE are TUM, KITTI or EuRoC files; KITTI files go by index. T
 those of evo: translation is its trans_part, rotation its rot_part, point-distance-ratio its
 point_distance_error_ratio. Without --relation the table shows translation and angle-deg, without
 --rpe the error over one frame. KITTI drift and path figures are of the estimate as it is, not
-aligned.)";
+aligned. Of trajectories of more than 65,536 poses what does not fit lies in a file without a name
+in $TMPDIR or /tmp, 96 bytes a pose, until the program ends.)";
 
 struct Arguments {
   fs::path estimate;
@@ -150,18 +150,23 @@ void choose_rpe(const Arguments& arguments, evaluation::EvaluationOptions& optio
 void take_frame_of_run(const fs::path& run, evaluation::KittiDriftOptions& options) {
   const fs::path file = run / "evaluation.json";
   if (!fs::exists(file)) return;
-  try {
-    const auto evaluation = evaluation::from_json(files::read_text(file));
-    if (!evaluation.comparison || !evaluation.comparison->kitti) return;
-    const evaluation::KittiDrift& kitti = *evaluation.comparison->kitti;
-    options.T_body_camera = kitti.T_body_camera;
-    (kitti.T_body_camera ? options.camera_frame : options.body_frame) = kitti.frame;
-  } catch (const evaluation::EvaluationError& error) {
-    throw files::InputError(file, files::Place::whole_file(), "the evaluation of the run",
-                            error.what());
-  }
+  const auto evaluation = evaluation::read_evaluation(file);
+  if (!evaluation.comparison || !evaluation.comparison->kitti) return;
+  const evaluation::KittiDrift& kitti = *evaluation.comparison->kitti;
+  options.T_body_camera = kitti.T_body_camera;
+  (kitti.T_body_camera ? options.camera_frame : options.body_frame) = kitti.frame;
 }
 
+void read_into(evaluation::TrajectoryStore& trajectory, const fs::path& file,
+               TrajectoryFormat format) {
+  dataset::read_poses(
+      file, format,
+      [&](const std::optional<geometry::Stamp>& stamp, const geometry::Pose3& T_map_body) {
+        trajectory.push_back(stamp, T_map_body);
+      });
+}
+
+/// The document is written as it is made: in memory it is many times as large as what it tells.
 void evaluate(const Arguments& arguments) {
   require_sensible(arguments);
   evaluation::EvaluationOptions options = arguments.options;
@@ -174,14 +179,19 @@ void evaluate(const Arguments& arguments) {
     estimate_file = arguments.estimate / "trajectory.tum";
     take_frame_of_run(arguments.estimate, options.kitti);
   }
-  const auto estimate = dataset::read_trajectory(estimate_file, arguments.format);
-  const auto reference = dataset::read_trajectory(reference_file, arguments.format);
+  evaluation::TrajectoryStore estimate;
+  evaluation::TrajectoryStore reference;
+  read_into(estimate, estimate_file, arguments.format);
+  read_into(reference, reference_file, arguments.format);
   evaluation::Evaluation evaluation = evaluation::evaluate(estimate, reference, options);
   evaluation.estimate.name = estimate_file.string();
   evaluation.comparison->reference.name = reference_file.string();
 
   fmt::print("{}", to_table(evaluation));
-  if (arguments.json) files::write_text(*arguments.json, to_json(evaluation));
+  if (arguments.json) {
+    write_json_output(*arguments.json,
+                      [&](std::ostream& stream) { evaluation::write_json(evaluation, stream); });
+  }
   if (arguments.budget) require_kept(report::check_budget(*arguments.budget, evaluation));
 }
 

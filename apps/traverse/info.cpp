@@ -4,9 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "traverse/files/atomic_file.hpp"
-
 #include "commands.hpp"
+#include "json_output.hpp"
 #include "recording_options.hpp"
 #include "recording_progress.hpp"
 #include "recording_report.hpp"
@@ -32,7 +31,7 @@ void run_info(const InfoOptions& options) {
       dataset::survey(*source, [&](const auto& measurement) { progress.update(measurement); });
   progress.finish();
   if (!options.json.empty()) {
-    files::write_text(options.json, recording_json(*source, survey));
+    write_json_output(options.json, recording_json(*source, survey));
   }
   fmt::print("{}", recording_text(*source, survey));
 }

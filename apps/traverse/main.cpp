@@ -2,6 +2,8 @@
 
 #include "commands.hpp"
 #include "exit_status.hpp"
+#include "interruption.hpp"
+#include "standard_streams.hpp"
 
 namespace {
 
@@ -12,11 +14,14 @@ constexpr const char* kExamples = R"(Examples:
   traverse compare RUN OTHER_RUN                   what is better, and whether that is sure
   traverse convert DRIVE drive.rawlog              for MRPT's own tools
 
-`traverse COMMAND --help` explains a command. Exit status: 0 done, 1 failed, 2 wrong usage.)";
+`traverse COMMAND --help` explains a command. Exit status: 0 done, 1 failed, 2 wrong usage, 130 ended by
+Ctrl-C, 143 by SIGTERM.)";
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  traverse::app::prepare_standard_streams();
+  traverse::app::end_on_signals();
   CLI::App app{"Traverse: lidar SLAM on recordings, with an accuracy report", "traverse"};
   app.set_version_flag("--version", TRAVERSE_VERSION);
   app.require_subcommand(1);

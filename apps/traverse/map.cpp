@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -14,19 +15,19 @@
 #include "traverse/config/document.hpp"
 #include "traverse/config/settings.hpp"
 #include "traverse/files/atomic_file.hpp"
+#include "traverse/files/input_error.hpp"
 #include "traverse/mapping/map_folder.hpp"
-#include "traverse/mapping/map_origin.hpp"
 #include "traverse/mapping/merge_runs.hpp"
-#include "traverse/pipeline/run_folder.hpp"
+#include "traverse/pipeline/run_keyframes.hpp"
 
 #include "commands.hpp"
 #include "progress_bar.hpp"
 
 namespace traverse::app {
 
-namespace {
-
 namespace fs = std::filesystem;
+
+namespace {
 
 constexpr const char* kExamples = R"(Examples:
   traverse map RUN -o MAP                        map.ply, map.simplemap, grid.png and grid.yaml
@@ -39,7 +40,8 @@ constexpr const char* kExamples = R"(Examples:
 
 RUN is the folder of a run, or a .simplemap. Several runs are merged if they show the same places:
 scans that look alike are registered, and a pose graph brings all keyframes together. Points that
-rays of other keyframes pass through, passing cars above all, are left out. grid.yaml opens in ROS'
+rays of other keyframes pass through, passing cars above all, are left out. DIR must be new or empty,
+or an earlier map and nothing else, which is replaced when the new one is complete. grid.yaml opens in ROS'
 map servers, map.ply in CloudCompare and MeshLab. A run with GNSS gives a map in east, north and
 up; origin.json says where on earth.)";
 
@@ -56,19 +58,6 @@ struct MapArguments {
   bool keep_moving = false;
   bool no_grid = false;
 };
-
-fs::path simple_map_of(const fs::path& run) {
-  if (!fs::is_directory(run)) return run;
-  const pipeline::RunFolder folder{run};
-  // Keyframes of slam are denser.
-  return fs::exists(folder.keyframes()) ? folder.keyframes() : folder.simple_map();
-}
-
-std::optional<geodesy::Geodetic> origin_of(const fs::path& run) {
-  const fs::path file = pipeline::RunFolder{run}.origin();
-  if (!fs::exists(file)) return std::nullopt;
-  return mapping::read_map_origin(file);
-}
 
 void bind(config::Binder& b, MapSettings& settings) {
   bind(b, settings.map);
@@ -125,8 +114,7 @@ std::vector<mapping::MapKeyframe> keyframes_of(const std::vector<std::string>& r
                                                const mapping::MergeOptions& options,
                                                StageBars& bars) {
   std::vector<std::vector<mapping::MapKeyframe>> by_run;
-  for (const std::string& run : runs)
-    by_run.push_back(mapping::read_simple_map(simple_map_of(run)));
+  for (const std::string& run : runs) by_run.push_back(pipeline::read_map_keyframes(run));
   if (by_run.size() == 1) return std::move(by_run.front());
   mapping::MergedRuns merged;
   try {
@@ -150,16 +138,41 @@ std::vector<mapping::MapKeyframe> keyframes_of(const std::vector<std::string>& r
   return all;
 }
 
+/// An earlier map is replaced as a whole, and so would be a simple map in it that this one is made
+/// of.
+void refuse_to_replace_an_input(const MapArguments& arguments) {
+  for (const std::string& run : arguments.runs) {
+    std::error_code failure;
+    const fs::path input = fs::absolute(run);
+    const fs::path folder = fs::is_directory(input, failure) ? input : input.parent_path();
+    if (fs::equivalent(folder, arguments.destination, failure)) {
+      throw files::OutputError(arguments.destination,
+                               fmt::format("{} is read from it. Choose another folder", run));
+    }
+  }
+}
+
+files::AtomicFolder new_folder(const mapping::MapFolder& folder) {
+  std::vector<std::string> earlier = mapping::files_of_earlier_map(folder);
+  const fs::path place = fs::absolute(folder.path).lexically_normal();
+  files::make_writable_folder(place.has_filename() ? place.parent_path()
+                                                   : place.parent_path().parent_path());
+  return files::AtomicFolder(folder.path, std::move(earlier));
+}
+
 void make_map(const MapArguments& arguments) {
   const MapSettings settings = settings_from(arguments);
   const mapping::MapOptions& options = settings.map;
-  files::make_writable_folder(arguments.destination);
   const mapping::MapFolder folder{arguments.destination};
+  refuse_to_replace_an_input(arguments);
+  files::AtomicFolder output = new_folder(folder);
   StageBars bars;
   auto keyframes = keyframes_of(arguments.runs, settings.merge, bars);
   const auto summary = mapping::write_map(
-      folder, std::move(keyframes), origin_of(arguments.runs.front()), options,
+      {output.temporary_path()}, std::move(keyframes),
+      pipeline::read_origin({arguments.runs.front()}), options,
       [&](const std::string& stage, double share) { bars.update(stage, share); });
+  output.commit();
   bars.finish();
   fmt::print("{} keyframes, {} points in {}\n", summary.keyframes, summary.points,
              folder.points().string());
@@ -181,7 +194,8 @@ void add_map(CLI::App& app) {
   map->add_option("RUN", arguments->runs, "run folders, or simple maps of MRPT, of one place")
       ->required()
       ->check(CLI::ExistingPath);
-  map->add_option("-o,--output", arguments->destination, "folder of the map; made if not there")
+  map->add_option("-o,--output", arguments->destination,
+                  "folder of the map: new, or an earlier map")
       ->required()
       ->type_name("DIR");
   map->add_option("--set", arguments->assignments, "a setting, as in --set grid.cell_m=0.05")

@@ -1,11 +1,12 @@
 #include "progress_bar.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <unistd.h>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "standard_streams.hpp"
 
 namespace traverse::app {
 
@@ -38,7 +39,7 @@ ProgressBar::ProgressBar(std::string label, std::size_t total, std::string unit)
 }
 
 ProgressBar::~ProgressBar() {
-  if (terminal_ && !finished_) fmt::print(stderr, "\n");  // an error message follows: own line
+  if (terminal_ && !finished_) print_message("\n");  // an error message follows: own line
 }
 
 std::optional<double> ProgressBar::share() const {
@@ -64,7 +65,7 @@ void ProgressBar::update(std::size_t done, std::optional<double> given_share) {
   }
   const int tenths = static_cast<int>(share().value_or(0) * 10);
   if (tenths > std::exchange(logged_tenths_, std::max(tenths, logged_tenths_)) && tenths < 10) {
-    fmt::print(stderr, "{}: {}\n", label_, text());
+    print_message("{}: {}\n", label_, text());
   }
 }
 
@@ -72,9 +73,9 @@ void ProgressBar::finish() {
   if (std::exchange(finished_, true)) return;
   if (terminal_) {
     draw();
-    fmt::print(stderr, "\n");
+    print_message("\n");
   } else {
-    fmt::print(stderr, "{}: {}\n", label_, text());
+    print_message("{}: {}\n", label_, text());
   }
 }
 
@@ -95,8 +96,7 @@ std::string ProgressBar::text() const {
 
 void ProgressBar::draw() const {
   const std::optional<double> part = share();
-  fmt::print(stderr, "\r\x1b[K{} {}{}", label_, part ? bar_text(*part) + " " : "", text());
-  std::fflush(stderr);
+  print_message("\r\x1b[K{} {}{}", label_, part ? bar_text(*part) + " " : "", text());
 }
 
 }  // namespace traverse::app

@@ -1,13 +1,14 @@
 #include "traverse/pipeline/run.hpp"
 
 #include <atomic>
-#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -18,6 +19,7 @@
 #include "traverse/dataset/trajectory_files.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
+#include "traverse/pipeline/run_destination.hpp"
 #include "traverse/pipeline/utm_trajectory.hpp"
 
 #include "budget_option.hpp"
@@ -25,37 +27,16 @@
 #include "commands.hpp"
 #include "factor_measurement.hpp"
 #include "installed_files.hpp"
+#include "interruption.hpp"
 #include "progress_bar.hpp"
 #include "recording_options.hpp"
 #include "report_progress.hpp"
 #include "run_summary.hpp"
+#include "standard_streams.hpp"
 
 namespace traverse::app {
 
 namespace {
-
-std::atomic<bool> stop_requested{false};
-
-/// While it lives, the first SIGINT or SIGTERM asks for an orderly end; a second one kills.
-class OrderlyStop {
- public:
-  OrderlyStop() {
-    std::signal(SIGINT, on_signal);
-    std::signal(SIGTERM, on_signal);
-  }
-  ~OrderlyStop() {
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
-  }
-  OrderlyStop(const OrderlyStop&) = delete;
-  OrderlyStop& operator=(const OrderlyStop&) = delete;
-
- private:
-  static void on_signal(int signal) {
-    stop_requested = true;
-    std::signal(signal, SIG_DFL);
-  }
-};
 
 struct RunArguments {
   RecordingOptions recording;
@@ -75,6 +56,7 @@ struct RunArguments {
   std::optional<std::filesystem::path> budget;
   bool hash = true;
   bool bench_factors = false;
+  bool force = false;
 };
 
 std::size_t expected_frames(const dataset::Source& source, const pipeline::RunOptions& options) {
@@ -100,7 +82,7 @@ void write_utm(const pipeline::Estimator& estimator, const pipeline::RunFolder& 
   const pipeline::UtmTrajectory utm = pipeline::to_utm(path, *origin);
   dataset::write_tum(folder.utm_trajectory(), utm.T_utm_body);
   fmt::print("UTM        zone {}{}, {}\n", utm.zone, utm.is_north ? 'N' : 'S',
-             folder.utm_trajectory().string());
+             folder.utm_trajectory().filename().string());
 }
 
 /// A wrong preset or setting is wrong usage, told before anything is opened.
@@ -115,7 +97,89 @@ pipeline::Preset checked_preset(const pipeline::PresetRequest& request,
   }
 }
 
-void run_recording(RunArguments& arguments, const std::vector<std::string>& command) {
+/// How far a run is, for who asks it to end.
+class RunStage {
+ public:
+  void set_frames(std::size_t done) { frames_ = done; }
+  void set_writing() { is_writing_ = true; }
+  void set_drawing() { is_drawing_ = true; }
+
+  /// What it does when it is asked; called by another thread.
+  std::string on_stop() const {
+    const char* what = is_drawing_   ? "the run is complete; its report is left out"
+                       : is_writing_ ? "writing what was estimated, without pictures"
+                                     : "writing what is done so far, without pictures";
+    return fmt::format("stopping: {}, {} frame{}; Ctrl-C again ends at once", what, frames_.load(),
+                       frames_ == 1 ? "" : "s");
+  }
+
+ private:
+  std::atomic<std::size_t> frames_{0};
+  std::atomic<bool> is_writing_{false};
+  std::atomic<bool> is_drawing_{false};
+};
+
+/// What is made of a run's folder before it gets its name. What fails is kept in mind and the rest
+/// is done all the same.
+class RunExtras {
+ public:
+  RunExtras(const RunArguments& arguments, const pipeline::RunFolder& folder,
+            const OrderlyStop& stop)
+      : arguments_(arguments), folder_(folder), stop_(stop) {}
+
+  void make(dataset::Source& source, const pipeline::Estimator& estimator,
+            const pipeline::RunRecord& record, const std::filesystem::path& templates,
+            const std::filesystem::path& place) {
+    if (arguments_.utm) attempt([&] { write_utm(estimator, folder_); });
+    const bool is_complete = record.status == pipeline::RunStatus::kOk;
+    if (arguments_.bench_factors && is_complete) {
+      attempt([&] { measure_factors(source, record, folder_); });
+    }
+    if (arguments_.report) {
+      attempt([&] { write_report(templates, place); });
+    } else if (arguments_.budget) {
+      attempt([&] { budget_ = report::check_budget(*arguments_.budget, folder_.path); });
+    }
+  }
+
+  bool has_report() const { return has_report_; }
+  const std::optional<report::BudgetResult>& budget() const { return budget_; }
+  /// Why something is missing; empty if nothing is.
+  const std::string& failure() const { return failure_; }
+
+ private:
+  template <typename Step>
+  void attempt(const Step& step) {
+    if (stop_.requested()) return;
+    try {
+      step();
+    } catch (const report::ReportStopped&) {  // NOLINT(bugprone-empty-catch): as it was asked to
+    } catch (const std::bad_alloc&) {
+      if (failure_.empty()) failure_ = "out of memory: the system gave no more";
+    } catch (const std::exception& error) {
+      if (failure_.empty()) failure_ = error.what();
+    }
+  }
+
+  void write_report(const std::filesystem::path& templates, const std::filesystem::path& place) {
+    report::RunReportOptions options;
+    options.budget = arguments_.budget;
+    options.folder_on_page = place;
+    options.stop = &stop_.requested();
+    budget_ = write_report_with_progress(folder_.path, templates, options);
+    has_report_ = true;
+  }
+
+  const RunArguments& arguments_;
+  const pipeline::RunFolder& folder_;
+  const OrderlyStop& stop_;
+  bool has_report_ = false;
+  std::optional<report::BudgetResult> budget_;
+  std::string failure_;
+};
+
+/// Options that are statements and settings by other names.
+void add_statements_and_settings(RunArguments& arguments) {
   if (!arguments.reference.empty()) {
     const std::string file = std::filesystem::absolute(arguments.reference).string();
     arguments.recording.statements.push_back("reference.file=" + config::to_text(file));
@@ -136,47 +200,141 @@ void run_recording(RunArguments& arguments, const std::vector<std::string>& comm
     arguments.preset.assignments.push_back(
         fmt::format("slam.localize.start=[{}]", fmt::join(arguments.start, ", ")));
   }
-  const InstalledFiles installed = find_installed_files();
-  const pipeline::Preset preset = checked_preset(arguments.preset, installed.share);
-  if (arguments.budget) report::require_valid_budget(*arguments.budget);
-  const std::unique_ptr<dataset::Source> source = arguments.recording.open();
-  pipeline::Pipeline pipeline = pipeline::make_pipeline(preset, source->info(), arguments.threads);
+}
 
+std::vector<pipeline::RunDestination::Input> inputs_of(const RunArguments& arguments) {
+  std::vector<pipeline::RunDestination::Input> inputs{
+      {"the recording", arguments.recording.recording}};
+  if (!arguments.map.empty()) inputs.push_back({"the map", arguments.map});
+  return inputs;
+}
+
+pipeline::RunOptions run_options(const RunArguments& arguments,
+                                 const std::vector<std::string>& command) {
   pipeline::RunOptions options;
   options.first = arguments.first;
   if (arguments.last) options.last = *arguments.last;
   options.threads = arguments.threads;
   options.hash_recording = arguments.hash;
   options.command = command;
+  return options;
+}
 
-  const pipeline::RunFolder folder{arguments.folder};
-  const OrderlyStop orderly_stop;
-  ProgressBar bar(pipeline.name, expected_frames(*source, options), "frames");
-  pipeline::RunObserver observer;
-  observer.stop = &stop_requested;
-  observer.frame = [&](std::size_t done) {
-    bar.update(done, source->info().expected_scans > 0 ? std::nullopt : source->share_read());
-  };
-  observer.stage = [&](const std::string&) { bar.finish(); };
-  const pipeline::RunRecord record = pipeline::run(*source, pipeline, folder, options, observer);
-
-  if (arguments.utm) write_utm(*pipeline.estimator, folder);
-  if (arguments.bench_factors) measure_factors(*source, record, folder);
-  std::optional<report::BudgetResult> budget;
-  if (arguments.report) {
-    report::RunReportOptions report_options;
-    report_options.budget = arguments.budget;
-    budget = write_report_with_progress(folder.path, installed.templates, report_options);
-  } else if (arguments.budget) {
-    budget = report::check_budget(*arguments.budget, folder.path);
+/// With `-o .` the working directory is replaced: this program enters it again, and the user's
+/// shell has to.
+class WorkingDirectory {
+ public:
+  void enter_again_if_replaced() const {
+    std::error_code failure;
+    if (std::filesystem::exists(std::filesystem::current_path(failure), failure)) return;
+    std::filesystem::current_path(path_, failure);
+    print_message("traverse: the working directory was replaced by the new run: `cd \"$PWD\"`\n");
   }
-  print_run_summary(record, folder, arguments.report);
+
+ private:
+  std::filesystem::path path_ = std::filesystem::current_path();
+};
+
+/// Gives the run its name, says what came of it, and throws what the exit status is to tell.
+void finish_run(const RunArguments& arguments, pipeline::RunDestination& destination,
+                const pipeline::RunRecord& record, const RunExtras& extras,
+                const OrderlyStop& stop) {
+  using pipeline::RunStatus;
+  using Outcome = pipeline::RunDestination::Outcome;
+  const bool has_frames = record.frames_used > 0;
+  const bool had_run = destination.has_earlier_run();
+  const Outcome outcome = record.status == RunStatus::kOk ? Outcome::kComplete : Outcome::kPartial;
+  const std::string earlier = destination.given().string();
+  if (!has_frames && had_run) {
+    const std::string kept = fmt::format("; {} is the earlier run, as it was", earlier);
+    if (!stop.requested()) throw std::runtime_error(record.reason + kept);
+    fmt::print("interrupted: {}{}\n", record.reason, kept);
+    throw CLI::RuntimeError(stop.exit_status());
+  }
+  const WorkingDirectory working_directory;
+  const pipeline::RunFolder folder = destination.finish(outcome, arguments.force);
+  working_directory.enter_again_if_replaced();
+  const bool beside = folder.path != destination.given();
+  if (has_frames && record.status != RunStatus::kFailed) {
+    print_run_summary(record, folder, extras.has_report());
+  }
+  const std::string stands =
+      beside ? fmt::format("this run stands in {}; {} is the earlier one, as it was",
+                           folder.path.string(), earlier)
+             : fmt::format("it stands in {}", folder.path.string());
+  if (stop.requested()) {
+    if (has_frames && arguments.report) {
+      fmt::print("no report was made: `traverse report {}` makes it\n", folder.path.string());
+    }
+    fmt::print("interrupted: {}, {} frame{}; {}\n",
+               record.status == RunStatus::kOk ? "the run is complete" : record.reason,
+               record.frames_used, record.frames_used == 1 ? "" : "s", stands);
+    throw CLI::RuntimeError(stop.exit_status());
+  }
+  if (record.status == RunStatus::kFailed) {
+    if (!has_frames) throw std::runtime_error(record.reason);
+    throw std::runtime_error(fmt::format("{}; {} frame{} before that {} kept: {}", record.reason,
+                                         record.frames_used, record.frames_used == 1 ? "" : "s",
+                                         record.frames_used == 1 ? "is" : "are", stands));
+  }
+  if (!destination.why_beside().empty()) {
+    throw std::runtime_error(
+        fmt::format("the run is complete, but could not take its place ({}); {}",
+                    destination.why_beside(), stands));
+  }
   if (!record.evaluation_error.empty()) {
     throw std::runtime_error("the run is complete, but it could not be compared with " +
                              record.reference_file.value_or("its reference") + ": " +
                              record.evaluation_error);
   }
-  if (budget) require_kept(*budget);
+  if (extras.budget()) require_kept(*extras.budget());
+}
+
+void run_recording(RunArguments& arguments, const std::vector<std::string>& command) {
+  add_statements_and_settings(arguments);
+  const InstalledFiles installed = find_installed_files();
+  const pipeline::Preset preset = checked_preset(arguments.preset, installed.share);
+  if (arguments.budget) report::require_valid_budget(*arguments.budget);
+  pipeline::RunDestination destination(arguments.folder, inputs_of(arguments));
+  const std::unique_ptr<dataset::Source> source = arguments.recording.open();
+  pipeline::Pipeline pipeline = pipeline::make_pipeline(preset, source->info(), arguments.threads);
+  const pipeline::RunOptions options = run_options(arguments, command);
+
+  RunStage stage;
+  const OrderlyStop stop([&] { return stage.on_stop(); });
+  const pipeline::RunFolder folder = destination.begin();
+  ProgressBar bar(pipeline.name, expected_frames(*source, options), "frames");
+  pipeline::RunObserver observer;
+  observer.stop = &stop.requested();
+  observer.frame = [&](std::size_t done) {
+    stage.set_frames(done);
+    bar.update(done, source->info().expected_scans > 0 ? std::nullopt : source->share_read());
+  };
+  observer.stage = [&](const std::string&) {
+    stage.set_writing();
+    bar.finish();
+  };
+  pipeline::RunRecord record = pipeline::run(*source, pipeline, folder, options, observer);
+
+  using Outcome = pipeline::RunDestination::Outcome;
+  const auto place = [&] {
+    const bool is_complete = record.status == pipeline::RunStatus::kOk;
+    return destination.place(is_complete ? Outcome::kComplete : Outcome::kPartial, arguments.force);
+  };
+  const std::string reason = record.reason;
+  record.reason = destination.in_words(reason, place());
+  if (record.reason != reason) pipeline::write_record(folder, record);
+  RunExtras extras(arguments, folder, stop);
+  if (record.frames_used > 0) {
+    if (record.status == pipeline::RunStatus::kOk) stage.set_drawing();
+    extras.make(*source, *pipeline.estimator, record, installed.templates, place());
+  }
+  if (!extras.failure().empty() && record.status == pipeline::RunStatus::kOk) {
+    record.status = pipeline::RunStatus::kFailed;
+    record.reason = destination.in_words(extras.failure(), place());
+    pipeline::write_record(folder, record);
+  }
+  finish_run(arguments, destination, record, extras, stop);
 }
 
 constexpr const char* kExamples = R"(Examples:
@@ -187,7 +345,10 @@ constexpr const char* kExamples = R"(Examples:
   traverse run log.txt -o RUN --pipeline gins-window --drop-gnss 10,30
                                                        GNSS, IMU and wheels; what it is worth without
   traverse run drive -o RUN --reference truth.tum --threads 4
-Ctrl-C ends the run in order: what is done so far is written and evaluated.
+Ctrl-C ends the run in order: what is done so far is written and evaluated, without pictures; the exit
+status is 130. An earlier run in RUN is replaced when the new one is complete; one that was interrupted
+or failed stands beside it as RUN.interrupted (--force: replaces it). Files in RUN that are not a
+run's own stay, and a folder that is not an earlier run is refused.
 `traverse pipelines` lists the presets, `traverse pipelines traverse` their settings.)";
 
 constexpr const char* kLocalizeExamples = R"(Examples:
@@ -205,6 +366,8 @@ CLI::App* add_estimating(CLI::App& app, const std::string& name, const std::stri
   run->add_option("-o,--output", arguments->folder, "run folder to write")
       ->required()
       ->type_name("RUN");
+  run->add_flag("--force", arguments->force,
+                "replace an earlier run even if this one is interrupted or fails");
   run->add_option("--pipeline", arguments->preset.name, "preset, or a YAML file in its form")
       ->capture_default_str();
   run->add_option("--config", arguments->preset.config_files, "YAML file laid over the preset")

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "traverse/evaluation/json.hpp"
-#include "traverse/files/text_file.hpp"
 
 namespace traverse::app {
 
@@ -48,8 +47,7 @@ void print_accuracy(const evaluation::Comparison& comparison) {
 
 void print_run_summary(const pipeline::RunRecord& record, const pipeline::RunFolder& folder,
                        bool with_report) {
-  const evaluation::Evaluation evaluation =
-      evaluation::from_json(files::read_text(folder.evaluation()));
+  const evaluation::Evaluation evaluation = evaluation::read_evaluation(folder.evaluation());
   if (record.status == pipeline::RunStatus::kInterrupted) print_line("status", "interrupted");
   print_line("frames", frames_text(record));
   if (evaluation.comparison) print_accuracy(*evaluation.comparison);

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -16,8 +18,7 @@
 #include "traverse/config/document.hpp"
 #include "traverse/config/settings.hpp"
 #include "traverse/dataset/recording_writer.hpp"
-#include "traverse/dataset/trajectory_files.hpp"
-#include "traverse/files/atomic_file.hpp"
+#include "traverse/dataset/trajectory_streams.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/simulation/ring_order.hpp"
 #include "traverse/simulation/simulation.hpp"
@@ -49,7 +50,12 @@ struct SimulateArguments {
   std::vector<std::string> overrides;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   int gzip_level = 0;
+  bool force = false;
 };
+
+constexpr const char* kCalibration = "rig.yaml";
+constexpr const char* kWorld = "world.yaml";
+constexpr const char* kGnss = "gnss.csv";
 
 constexpr const char* kExamples = R"(Examples:
   traverse simulate --list
@@ -63,7 +69,8 @@ Beside X.rawlog stand X.traverse.yaml (what holds of it), X.reference.tum (the e
 X.rig.yaml (the calibration), X.world.yaml (every setting, to be simulated again) and X.gnss.csv
 (headings and deviations, which rawlogs have no place for). A KITTI folder holds the same files
 without X., and poses.txt and calib.txt of a camera 0 that looks ahead from the lidar's place; of the
-other sensors it has gnss.csv only. The same seed gives the same bytes.)";
+other sensors it has gnss.csv only. The same seed gives the same bytes. Files of an earlier simulation
+are replaced when the new ones are complete; a KITTI folder must be new or empty.)";
 
 void list(const fs::path& share) {
   const auto files = [&](const char* folder) {
@@ -119,9 +126,10 @@ SweepRange choose_sweeps(const Simulation& simulation, const SimulateArguments& 
   SweepRange sweeps{arguments.first, std::min(arguments.last, all - 1) + 1};
   if (arguments.duration_s) {
     const double sweep_s = simulation.lidar().begin_s(1);
-    const auto count =
-        static_cast<std::size_t>(std::max(1.0, *arguments.duration_s / sweep_s + 0.5));
-    sweeps.end = std::min(sweeps.end, sweeps.first + count);
+    const double count = std::max(1.0, std::floor(*arguments.duration_s / sweep_s + 0.5));
+    if (sweeps.first < sweeps.end && count < static_cast<double>(sweeps.end - sweeps.first)) {
+      sweeps.end = sweeps.first + static_cast<std::size_t>(count);
+    }
   }
   if (sweeps.first >= sweeps.end) {
     throw std::runtime_error(
@@ -153,18 +161,15 @@ dataset::RecordingInfo describe(const Simulation& simulation, const SimulateArgu
   return info;
 }
 
-std::string name_beside(const SimulateArguments& arguments, const char* name) {
-  if (is_kitti(arguments)) return (fs::path(arguments.output) / name).string();
-  return fs::path(arguments.output).replace_extension(name).string();
-}
-
 /// The poses of camera 0 as KITTI's benchmark gives them, the first at the origin.
-void write_camera_poses(const dataset::RecordingInfo& info, const geometry::Trajectory& T_map_body,
-                        const std::string& file) {
+std::string camera_poses(const dataset::RecordingInfo& info,
+                         const geometry::Trajectory& T_map_body) {
   const geometry::Pose3& T_body_camera = *info.T_body_camera;
   const geometry::Pose3 T_first_map = (T_map_body.pose(0) * T_body_camera).inverse();
-  dataset::write_kitti(file,
+  std::ostringstream text;
+  dataset::write_kitti(text,
                        T_map_body.transformed_left(T_first_map).transformed_right(T_body_camera));
+  return std::move(text).str();
 }
 
 simulation::WorldDescription chosen_world(const SimulateArguments& arguments,
@@ -193,7 +198,9 @@ void simulate(const SimulateArguments& arguments) {
   const auto writer =
       kitti ? dataset::write_scan_folder(arguments.output, info, truth, info.rig.sensors[0].label,
                                          dataset::ScanFolderFormat::kKitti)
-            : dataset::write_rawlog(arguments.output, info, truth, {arguments.gzip_level});
+            : dataset::write_rawlog(
+                  arguments.output, info, truth,
+                  {arguments.gzip_level, {arguments.force, {kCalibration, kWorld, kGnss}}});
   GnssTable gnss;
   ProgressBar bar("simulating", scans, "scans");
   std::size_t done = 0;
@@ -213,13 +220,12 @@ void simulate(const SimulateArguments& arguments) {
     }
     bar.update(++done);
   });
-  writer->commit();
-  files::write_text(name_beside(arguments, "rig.yaml"), simulation.calibration());
+  writer->add_file(kCalibration, simulation.calibration());
   simulation::WorldDescription resolved = world;
-  files::write_text(name_beside(arguments, "world.yaml"),
-                    config::to_yaml([&](config::Binder& b) { bind(b, resolved); }, true));
-  if (kitti) write_camera_poses(info, truth.T_map_body, name_beside(arguments, "poses.txt"));
-  if (!gnss.empty()) files::write_text(name_beside(arguments, "gnss.csv"), gnss.text());
+  writer->add_file(kWorld, config::to_yaml([&](config::Binder& b) { bind(b, resolved); }, true));
+  if (kitti) writer->add_file("poses.txt", camera_poses(info, truth.T_map_body));
+  if (!gnss.empty()) writer->add_file(kGnss, gnss.text());
+  writer->commit();
   bar.finish();
   fmt::print("{}: {} scans of {}, {:.1f} M points, {:.1f} m driven, {} triangles\n",
              arguments.output, scans, info.rig.sensors[0].lidar->name,
@@ -284,6 +290,8 @@ CLI::App* declare(CLI::App& app, const std::shared_ptr<SimulateArguments>& argum
                    "compression of a rawlog: 0 is quick, 1 halves the file")
       ->check(CLI::Range(0, 9))
       ->capture_default_str();
+  command->add_flag("--force", arguments->force,
+                    "replace files beside X.rawlog that this program did not write");
   command->footer(kExamples);
   return command;
 }

@@ -106,8 +106,7 @@ function drawTable(place, allColumns, allRows, options = {}) {
   search.addEventListener("input", () => { state.filter = search.value; draw(); });
   more.addEventListener("click", () => { state.all = true; draw(); });
   place.querySelector(".csv").addEventListener("click", () => {
-    const quote = (text) => (/[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text);
-    const lines = [columns.map((column) => quote(column.head)), ...shown().map((row) => row.cells.map((cell) => quote(String(value(cell) ?? ""))))];
+    const lines = [columns.map((column) => traverseCsvCell(column.head)), ...shown().map((row) => row.cells.map((cell) => traverseCsvCell(value(cell))))];
     const link = document.createElement("a");
     link.href = URL.createObjectURL(new Blob([lines.map((line) => line.join(",")).join("\n") + "\n"], { type: "text/csv" }));
     link.download = `${place.dataset.table}.csv`;

@@ -35,14 +35,10 @@
   };
 
   // As exports.cpp writes them.
-  const csvCell = (value) => {
-    const text = value === null ? "" : String(value);
-    return /[",\r\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
-  };
-  const csv = (table) => [table.columns, ...table.rows].map((row) => row.map(csvCell).join(",") + "\r\n").join("");
+  const csv = (table) => [table.columns, ...table.rows].map((row) => row.map(traverseCsvCell).join(",") + "\r\n").join("");
   const kLatex = { "\\": "\\textbackslash{}", "~": "\\textasciitilde{}", "^": "\\textasciicircum{}",
-    "<": "\\textless{}", ">": "\\textgreater{}", "\n": " " };
-  const latexText = (text) => text.replace(/[&%$#_{}\\~^<>\n]/g, (c) => kLatex[c] ?? `\\${c}`);
+    "<": "\\textless{}", ">": "\\textgreater{}", "\n": " ", "\r": " " };
+  const latexText = (text) => text.replace(/[&%$#_{}\\~^<>\n\r]/g, (c) => kLatex[c] ?? `\\${c}`);
   // Numbers as the page shows them.
   const latexCell = (cell) => (cell.classList.contains("n")
     ? cell.textContent.replace(/\u2009/g, "").replace("−", "$-$").replace("–", "--")

@@ -94,6 +94,14 @@ TEST_F(Execute, EveryEndIsARowWithItsReason) {
   }
 }
 
+TEST_F(Execute, WhatAKilledRunWasWritingIsNoResult) {
+  Job slow = job("slow", "mkdir .run.traverse-work; touch .run.traverse-work/map.ply; sleep 60");
+  slow.limits.time_s = 0.2;
+  EXPECT_EQ(run(slow)->outcome, Outcome::kTimedOut);
+  EXPECT_TRUE(fs::exists(folder_.run(slow.id) / "log.txt"));
+  EXPECT_FALSE(fs::exists(folder_.run(slow.id) / ".run.traverse-work"));
+}
+
 TEST_F(Execute, ARunKilledFromOutsideIsBegunAgain) {
   const std::string marker = (temporary_ / "marker").string();
   const Job once =

@@ -1,7 +1,9 @@
 #include "traverse/batch/plan.hpp"
 
 #include <filesystem>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -186,6 +188,24 @@ TEST_F(PlanTest, LimitsThatThisMachineCannotKeepAreToldWithTheirLine) {
   EXPECT_EQ(error_of(""), "no error");
   EXPECT_THAT(error_of("limits:\n  threads: 256\n"), HasSubstr("line 4"));
   EXPECT_THAT(error_of("limits:\n  memory_mb: 1e7\n"), HasSubstr("line 4"));
+}
+
+TEST_F(PlanTest, RunsAreCountedBeforeTheirListIsMade) {
+  std::string grid = "grid:\n";
+  for (const char* key : {"solver.huber_m", "map.radius_m", "map.edge_voxel_m",
+                          "map.planar_voxel_m", "thinning.edge_voxel_m", "thinning.planar_voxel_m",
+                          "features.noise_m", "features.break_m"}) {
+    grid += std::string("  ") + key + ": [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]\n";
+  }
+  EXPECT_THAT(message_of(kSmall + grid),
+              AllOf(HasSubstr("line 3: expected at most 200000 runs"),
+                    HasSubstr("1 recording x 1 pipeline (100000000 with the grid) x 1 repeat = "
+                              "100000000 runs")));
+
+  Plan plan = read(kSmall);
+  plan.pipelines[0].grid.assign(30, {"a", std::vector<std::string>(1000, "1"), {}});
+  EXPECT_EQ(count_runs(plan), std::numeric_limits<std::size_t>::max());
+  EXPECT_THAT(describe(plan), HasSubstr("more than can be counted runs"));
 }
 
 }  // namespace

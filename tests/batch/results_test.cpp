@@ -35,6 +35,15 @@ TEST(Results, OneRowARunWithEveryMetricThatAnyRunHas) {
       << "the job that is not made has no row";
 }
 
+TEST(Results, NoCellIsWhatASpreadsheetComputes) {
+  const TemporaryFolder folder;
+  Results results({made_job("=cmd|'/c calc'!A1", "@floam")});
+  results.add(made_completion(results.jobs()[0], {{"mme", -1.5}}));
+  write_csv(folder / "results.csv", results);
+  EXPECT_THAT(files::read_text(folder / "results.csv"),
+              HasSubstr("\n\"'=cmd|'/c calc'!A1\",\"'@floam\",,1,ok,,"));
+}
+
 TEST(Results, JsonHoldsTheRunsThatAreNotMadeToo) {
   const TemporaryFolder folder;
   Plan plan;

@@ -151,7 +151,7 @@ def cells_of(text):
 def export_tables(browser, folder):
     """The buttons of a table give what the command writes."""
     browser.js("URL.createObjectURL = (blob) => { window.saved = blob; return 'data:,'; }")
-    for table in ("ape", "configuration", "timing"):
+    for table in ("ape", "configuration", "facts", "timing"):
         for number, ending in enumerate(("csv", "tex")):
             browser.js(f"document.querySelectorAll('#table-{table} .exports button')[{number}].click()")
             text = browser.js("window.saved.text()")

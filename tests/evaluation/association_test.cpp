@@ -150,7 +150,8 @@ TEST(Association, MatchedPosesFollowTheMatches) {
     reference.push_back(Stamp::from_seconds(i), pose);
     if (i % 2 == 1) estimate.push_back(Stamp::from_seconds(i), pose);
   }
-  const MatchedPoses poses = matched_poses(estimate, reference, associate(estimate, reference, {}));
+  const Association association = associate(estimate, reference, {});
+  const MatchedPoses poses = matched_poses(estimate, reference, association.matches);
   ASSERT_EQ(poses.size(), 2U);
   EXPECT_EQ(poses.estimate[1].translation.x(), 3);
   EXPECT_EQ(poses.reference[1].translation.x(), 3);

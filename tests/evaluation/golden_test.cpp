@@ -30,9 +30,10 @@ void expect_known(const Statistics& found, const Known& known) {
 class Golden : public ::testing::Test {
  protected:
   static MatchedPoses matched() {
-    const auto estimate = testing::golden_estimate();
-    const auto reference = testing::golden_reference();
-    return matched_poses(estimate, reference, associate(estimate, reference, {}));
+    static const auto estimate = testing::golden_estimate();
+    static const auto reference = testing::golden_reference();
+    static const auto association = associate(estimate, reference, {});
+    return matched_poses(estimate, reference, association.matches);
   }
   static MatchedPoses matched_and_aligned(const AlignmentOptions& options) {
     MatchedPoses poses = matched();

@@ -80,7 +80,8 @@ TEST(KittiDrift, IsNotDefinedUpToAHundredMetres) {
 TEST(KittiDrift, DependsOnTheFrameAndNamesIt) {
   const auto estimate = testing::golden_estimate();
   const auto reference = testing::golden_reference();
-  const MatchedPoses poses = matched_poses(estimate, reference, associate(estimate, reference, {}));
+  const Association association = associate(estimate, reference, {});
+  const MatchedPoses poses = matched_poses(estimate, reference, association.matches);
   KittiDriftOptions options;
   options.body_frame = "lidar";
   const auto in_lidar = kitti_drift(poses.estimate, poses.reference, options);

@@ -58,6 +58,95 @@ TEST(AtomicFile, AFullDiskIsAnErrorAndLeavesNothing) {
   EXPECT_EQ(files_in(folder.path()), 0U);
 }
 
+TEST(AtomicFile, ReplacesWhatALinkLeadsToAndNotTheLink) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.txt", "old");
+  std::filesystem::create_symlink("a.txt", folder / "link");
+  write_text(folder / "link", "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_EQ(read_text(folder / "a.txt"), "new");
+}
+
+TEST(AtomicFile, ADeviceIsWrittenToAndStaysADevice) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("/dev/full", folder / "full");
+  EXPECT_THROW(write_text(folder / "full", "text"), OutputError);
+  std::filesystem::create_symlink("/dev/null", folder / "null");
+  write_text(folder / "null", "text");
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+  EXPECT_EQ(files_in(folder.path()), 2U);
+}
+
+TEST(AtomicFiles, NoneAppearsBeforeAllAreWhole) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.txt", "old");
+  {
+    AtomicFiles files;
+    files.write(folder / "a.txt", "new");
+    files.write(folder / "b.txt", "new");
+    EXPECT_EQ(read_text(folder / "a.txt"), "old");
+    EXPECT_FALSE(std::filesystem::exists(folder / "b.txt"));
+    files.commit();
+  }
+  EXPECT_EQ(read_text(folder / "a.txt"), "new");
+  EXPECT_EQ(read_text(folder / "b.txt"), "new");
+  {
+    AtomicFiles files;
+    files.write(folder / "a.txt", "newer");
+    AtomicFile& large = files.add(folder / "b.txt");
+    const FileSizeLimit limit(1000);
+    large.stream() << std::string(1 << 20, 'x');
+    EXPECT_THROW(files.commit(), OutputError);
+  }
+  EXPECT_EQ(read_text(folder / "a.txt"), "new");
+  EXPECT_EQ(files_in(folder.path()), 2U);
+}
+
+TEST(AtomicFolder, ReplacesAnEarlierResultByOneStep) {
+  const TemporaryFolder folder;
+  const auto place = folder / "out";
+  std::filesystem::create_directory(place);
+  write_text(place / "a.txt", "old");
+  write_text(place / "b.txt", "old");
+  { write_text(AtomicFolder(place, {"a.txt", "b.txt"}).temporary_path() / "a.txt", "half"); }
+  EXPECT_EQ(read_text(place / "a.txt"), "old");
+  AtomicFolder output(place, {"a.txt", "b.txt"});
+  write_text(output.temporary_path() / "a.txt", "new");
+  EXPECT_EQ(read_text(place / "a.txt"), "old");
+  output.commit();
+  EXPECT_EQ(read_text(place / "a.txt"), "new");
+  EXPECT_EQ(files_in(place), 1U);
+  EXPECT_EQ(files_in(folder.path()), 1U);
+}
+
+TEST(AtomicFolder, KeepsWhatCameIntoTheFolderMeanwhile) {
+  const TemporaryFolder folder;
+  const auto place = folder / "out";
+  std::filesystem::create_directory(place);
+  write_text(place / "a.txt", "old");
+  AtomicFolder output(place, {"a.txt"});
+  write_text(output.temporary_path() / "a.txt", "new");
+  write_text(output.temporary_path() / "b.txt", "new");
+  write_text(place / "notes.txt", "foreign");
+  write_text(place / "b.txt", "foreign");
+  output.commit();
+  EXPECT_EQ(read_text(place / "a.txt"), "new");
+  EXPECT_EQ(read_text(place / "b.txt"), "new");
+  EXPECT_EQ(read_text(place / "b.txt.earlier"), "foreign");
+  EXPECT_EQ(read_text(place / "notes.txt"), "foreign");
+  EXPECT_EQ(files_in(folder.path()), 1U);
+}
+
+TEST(AtomicFolder, ALinkToAnEmptyFolderIsThatFolder) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "real");
+  std::filesystem::create_directory_symlink("real", folder / "link");
+  AtomicFolder output(folder / "link");
+  write_text(output.temporary_path() / "a.txt", "whole");
+  output.commit();
+  EXPECT_EQ(read_text(folder / "real/a.txt"), "whole");
+}
+
 TEST(AtomicFolder, AppearsWholeAtCommit) {
   const TemporaryFolder folder;
   AtomicFolder output(folder / "out/");

@@ -32,6 +32,7 @@ TEST(Numbers, TextReadsBackToTheSameBits) {
 TEST(Split, WordsAndCells) {
   EXPECT_THAT(split_words("  a\tbc  d \r"), ElementsAre("a", "bc", "d"));
   EXPECT_THAT(split_words("   "), ElementsAre());
+  EXPECT_THAT(split_words("a b c", 2), ElementsAre("a", "b"));
   EXPECT_THAT(split_cells("a, b ,,c", ','), ElementsAre("a", "b", "", "c"));
 }
 

@@ -43,5 +43,35 @@ TEST(LineReader, SaysWhatIsWrongWithTheFile) {
   EXPECT_THROW(read_text(folder / "none.txt"), InputError);
 }
 
+TEST(LineReader, GivesLinesOfAnyUsualLengthAndRefusesLongerOnes) {
+  const TemporaryFolder folder;
+  for (const std::size_t length : {4094U, 4095U, 4096U, 8190U, 8191U, 100'000U}) {
+    write_text(folder / "a.txt", std::string(length, 'x') + "\n\ny");
+    LineReader reader(folder / "a.txt");
+    ASSERT_TRUE(reader.next());
+    EXPECT_EQ(reader.line(), std::string(length, 'x'));
+    ASSERT_TRUE(reader.next());
+    EXPECT_EQ(reader.line(), "y");
+    EXPECT_EQ(reader.number(), 3U);
+    EXPECT_FALSE(reader.next());
+  }
+  write_text(folder / "b.txt", "x\n" + std::string(LineReader::kLongestLine + 5000, 'x') + "\n");
+  LineReader reader(folder / "b.txt");
+  ASSERT_TRUE(reader.next());
+  try {
+    reader.next();
+    FAIL() << "the line is not refused";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.place().text, "line 2");
+  }
+}
+
+TEST(ReadText, RefusesWhatIsTooLargeToBeReadAtOnce) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.bin", "");
+  std::filesystem::resize_file(folder / "a.bin", kMostBytesAtOnce + 1);  // takes no room
+  EXPECT_THROW(read_bytes(folder / "a.bin"), InputError);
+}
+
 }  // namespace
 }  // namespace traverse::files

@@ -1,5 +1,9 @@
 #include "traverse/geometry/stamp.hpp"
 
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
 #include <gtest/gtest.h>
 
 namespace traverse::geometry {
@@ -39,6 +43,19 @@ TEST(Stamp, SecondsBetweenKeepsNanosecondsAtUnixTime) {
       seconds_between(Stamp{-9'200'000'000'000'000'000}, Stamp{9'200'000'000'000'000'000}),
       1.84e10);
   EXPECT_EQ(shifted(a, -0.5).nanoseconds, 1317042144500000001);
+}
+
+TEST(Stamp, StaysWithinWhatSixtyFourBitsHold) {
+  constexpr std::int64_t kFarthest = 9'200'000'000'000'000'000;
+  constexpr std::int64_t kLeast = std::numeric_limits<std::int64_t>::min();
+  EXPECT_EQ(Stamp::from_seconds(1e300).nanoseconds, kFarthest);
+  EXPECT_EQ(Stamp::from_seconds(-1e300).nanoseconds, -kFarthest);
+  EXPECT_EQ(Stamp::from_seconds(std::nan("")).nanoseconds, 0);
+  EXPECT_EQ(shifted(Stamp{5}, 1e300).nanoseconds, kFarthest);
+  EXPECT_EQ(shifted(Stamp{kFarthest}, 9e9).nanoseconds, kFarthest);
+  EXPECT_EQ(shifted(Stamp{-kFarthest}, -9e9).nanoseconds, -kFarthest);
+  EXPECT_EQ(shifted(Stamp{7}, std::nan("")).nanoseconds, 7);
+  EXPECT_EQ(to_text(Stamp{kLeast}), "-9223372036.854775808");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "traverse/geometry/voxel.hpp"
 
+#include <cmath>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -21,6 +22,10 @@ TEST(VoxelKey, DiffersForAllCellsAround) {
     }
   }
   EXPECT_EQ(keys.size(), 343U);
+}
+
+TEST(VoxelKey, CoordinatesBeyondAllCountingShareACell) {
+  EXPECT_EQ(voxel_key({1e300, -1e300, std::nan("")}, 0.2), voxel_key({0, 0, 0}, 0.2));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,7 @@ class MadeSource : public dataset::Source {
 
   const dataset::RecordingInfo& info() const override { return info_; }
   std::optional<sensors::Measurement> next() override {
+    if (next_ == fail_at_) throw std::runtime_error("the recording is damaged here");
     if (next_ == measurements_.size()) return std::nullopt;
     return measurements_[next_++];
   }
@@ -26,6 +28,7 @@ class MadeSource : public dataset::Source {
 
   dataset::SkippedRecords skipped_;
   std::optional<dataset::Reference> reference_;
+  std::optional<std::size_t> fail_at_;  ///< the measurement that cannot be read
 
  private:
   dataset::RecordingInfo info_;

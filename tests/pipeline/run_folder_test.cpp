@@ -12,18 +12,26 @@ namespace {
 
 using testing::TemporaryFolder;
 
-TEST(RunFolder, PreparingRemovesAnOldRunAndNothingElse) {
+TEST(RunFolder, NothingIsWrittenIntoAFolderThatHoldsSomething) {
   const TemporaryFolder parent;
-  const RunFolder folder{parent / "run"};
+  const RunFolder folder{parent / "some/run"};
   folder.prepare();
-  files::write_text(folder.record(), "{}");
-  files::make_writable_folder(folder.images());
-  files::write_text(folder.images() / "old.png", "");
+  folder.prepare();
   files::write_text(folder.path / "notes.txt", "mine");
-  folder.prepare();
-  EXPECT_FALSE(std::filesystem::exists(folder.record()));
-  EXPECT_FALSE(std::filesystem::exists(folder.images()));
+  EXPECT_THROW(folder.prepare(), files::OutputError);
   EXPECT_TRUE(std::filesystem::exists(folder.path / "notes.txt"));
+}
+
+TEST(RunFolder, KnowsItsPicturesFromTheUsers) {
+  for (const char* own : {"map-height.png", "map-height_dark.png", "map-slice-above_print.png",
+                          "trajectory-error.svg", "worst-segment-10_dark.png"}) {
+    EXPECT_TRUE(RunFolder::is_picture(own)) << own;
+  }
+  for (const char* foreign :
+       {"mine.png", "map-height.txt", "map-height", "map-height_dark_print.png",
+        "worst-segment-.png", "worst-segment-1a.png", "my map-height.png", ".png", ""}) {
+    EXPECT_FALSE(RunFolder::is_picture(foreign)) << foreign;
+  }
 }
 
 TEST(RunFolder, AFileInTheWayIsAnError) {

@@ -1,6 +1,7 @@
 #include "traverse/pipeline/run.hpp"
 
 #include <fstream>
+#include <new>
 #include <set>
 #include <stdexcept>
 
@@ -13,6 +14,7 @@
 #include "traverse/evaluation/json.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
+#include "traverse/files/json_document.hpp"
 #include "traverse/files/text_file.hpp"
 #include "traverse/optimization/jacobian_audit.hpp"
 #include "traverse/pipeline/frame_table.hpp"
@@ -53,6 +55,7 @@ class KnowingEstimator : public Estimator {
     frame.milliseconds = 5;
     frame.record = {static_cast<double>(scan->size())};
     if (residual_rms_m) frame.record.push_back(*residual_rms_m);
+    if (out_of_memory_at && scan->stamp >= *out_of_memory_at) throw std::bad_alloc();
     if (fail_at && scan->stamp >= *fail_at) throw std::runtime_error("cannot go on");
     held_back_.push_back(frame);
     return held_back_.size() < 3 && !begun_ ? std::vector<PoseFrame>{} : finish();
@@ -77,6 +80,7 @@ class KnowingEstimator : public Estimator {
   std::vector<optimization::FactorUse> uses;
   std::optional<double> residual_rms_m;
   std::optional<geometry::Stamp> fail_at;
+  std::optional<geometry::Stamp> out_of_memory_at;
 
  private:
   bool begun_ = false;
@@ -135,7 +139,25 @@ class RunTest : public ::testing::Test {
   RunRecord run_all(const RunOptions& options = {}, const RunObserver& observer = {}) {
     return run(source_, pipeline_, run_folder_, options, observer);
   }
+  /// The same once more, from the beginning.
+  RunRecord run_again() {
+    std::filesystem::remove_all(run_folder_.path);
+    source_.rewind();
+    return run_all();
+  }
   json record() const { return json::parse(files::read_text(run_folder_.record())); }
+
+  /// Trajectory, health, map, and evaluation are those of the first `frames` frames.
+  void expect_results_of(std::size_t frames) const {
+    EXPECT_EQ(
+        dataset::read_trajectory(run_folder_.trajectory(), dataset::TrajectoryFormat::kTum).size(),
+        frames);
+    EXPECT_EQ(FrameTable::read_csv(run_folder_.frames()).rows().size(), frames);
+    EXPECT_GT(dataset::read_point_cloud(run_folder_.map_points()).size(), 0U);
+    const auto evaluation = evaluation::from_json(files::read_text(run_folder_.evaluation()));
+    EXPECT_EQ(evaluation.comparison.has_value(), source_.reference_.has_value());
+    EXPECT_EQ(record()["frames"]["used"], frames);
+  }
 
   TemporaryFolder folder_;
   RunFolder run_folder_{folder_ / "run"};
@@ -176,8 +198,7 @@ TEST_F(RunTest, KeepsHowAFrameOfTheWorstSegmentWasRegistered) {
   run_all();
   EXPECT_FALSE(std::filesystem::exists(run_folder_.worst_frames())) << "it tells no residuals";
   estimator_->residual_rms_m = 0.1;
-  source_.rewind();
-  run_all();
+  run_again();
   const auto cloud = dataset::read_point_cloud(run_folder_.worst_frames());
   ASSERT_NE(cloud.find("frame"), nullptr);
   const auto frames = dataset::to_floats(*cloud.find("frame"));
@@ -195,8 +216,7 @@ TEST_F(RunTest, TellsNorthThroughTheReference) {
   T_reference_map.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   source_.reference_->T_map_body = source_.reference_->T_map_body.transformed_left(T_reference_map);
   source_.reference_->north_map = Eigen::Vector3d::UnitY();
-  source_.rewind();
-  run_all();
+  run_again();
   EXPECT_NEAR(record()["map"]["north"][0].get<double>(), 1, 1e-6);
   EXPECT_NEAR(record()["map"]["north"][1].get<double>(), 0, 1e-6);
 }
@@ -204,7 +224,8 @@ TEST_F(RunTest, TellsNorthThroughTheReference) {
 TEST_F(RunTest, ChecksTheJacobiansOfTheFactorsThatTheEstimatorUses) {
   estimator_->uses = {{"plane absolute", optimization::Perturbation::kLeft}};
   run_all();
-  const auto audit = optimization::audit_from_json(files::read_text(run_folder_.jacobians()));
+  const auto audit =
+      optimization::audit_from_json(files::JsonDocument::read(run_folder_.jacobians()).root());
   ASSERT_EQ(audit.factors.size(), 1U);
   EXPECT_EQ(audit.factors[0].factor, "plane absolute");
   EXPECT_EQ(audit.factors[0].perturbation, optimization::Perturbation::kLeft);
@@ -243,24 +264,55 @@ TEST_F(RunTest, AStopBeforeTheFirstFrameIsNoFailureOfTheRun) {
   const std::atomic<bool> stop{true};
   RunObserver observer;
   observer.stop = &stop;
-  EXPECT_THROW(run_all({}, observer), std::runtime_error);
+  EXPECT_EQ(run_all({}, observer).frames_used, 0U);
   EXPECT_EQ(record()["status"], "interrupted");
   EXPECT_THAT(std::string(record()["reason"]), ::testing::HasSubstr("stopped by the user"));
 }
 
-TEST_F(RunTest, AFailureIsToldInTheRecordAndThrown) {
+TEST_F(RunTest, AnEstimatorThatFailsLeavesWhatItEstimatedBefore) {
+  add_reference(0);
   estimator_->fail_at = geometry::Stamp::from_seconds(1);
-  EXPECT_THROW(run_all(), std::runtime_error);
+  const RunRecord result = run_all();
+  EXPECT_EQ(result.status, RunStatus::kFailed);
+  EXPECT_EQ(result.frames_used, 10U);
   EXPECT_EQ(record()["status"], "failed");
   EXPECT_EQ(record()["reason"], "cannot go on");
-  EXPECT_FALSE(std::filesystem::exists(run_folder_.trajectory()));
+  expect_results_of(10);
+}
+
+TEST_F(RunTest, ARecordingThatCannotBeReadOnLeavesWhatWasEstimatedBefore) {
+  add_reference(0);
+  source_.fail_at_ = 7;
+  EXPECT_EQ(run_all().status, RunStatus::kFailed);
+  EXPECT_THAT(std::string(record()["reason"]), HasSubstr("damaged"));
+  expect_results_of(7);
+}
+
+TEST_F(RunTest, FramesThatWereHeldBackWhenReadingFailedAreNotLost) {
+  source_.fail_at_ = 2;
+  EXPECT_EQ(run_all().frames_used, 2U);
+  expect_results_of(2);
+}
+
+TEST_F(RunTest, MemoryThatRanOutIsSaidInWords) {
+  estimator_->out_of_memory_at = geometry::Stamp::from_seconds(1);
+  EXPECT_EQ(run_all().status, RunStatus::kFailed);
+  EXPECT_THAT(std::string(record()["reason"]), HasSubstr("out of memory"));
+  expect_results_of(10);
 }
 
 TEST_F(RunTest, NoFrameInTheRangeIsAFailure) {
   RunOptions options;
   options.first = 50;
-  EXPECT_THROW(run_all(options), std::runtime_error);
+  EXPECT_EQ(run_all(options).status, RunStatus::kFailed);
   EXPECT_THAT(std::string(record()["reason"]), HasSubstr("no usable scan"));
+}
+
+TEST_F(RunTest, WritesIntoNoFolderThatHoldsSomething) {
+  files::make_writable_folder(run_folder_.path);
+  files::write_text(run_folder_.map_points(), "mine");
+  EXPECT_THROW(run_all(), files::OutputError);
+  EXPECT_EQ(files::read_text(run_folder_.map_points()), "mine");
 }
 
 TEST_F(RunTest, AReferenceThatDoesNotOverlapIsToldAndTheRestIsWritten) {
@@ -283,13 +335,15 @@ TEST_F(RunTest, SkippedRecordsReachTheRecord) {
 
 TEST_F(RunTest, AFullDiskIsAnErrorAndNoFileIsHalfWritten) {
   {
-    const testing::FileSizeLimit limit(600);  // frames.csv does not fit
+    const testing::FileSizeLimit limit(600);  // neither map.ply nor run.json fit
     EXPECT_THROW(run_all(), files::OutputError);
   }
   for (const auto& entry : std::filesystem::directory_iterator(run_folder_.path)) {
     EXPECT_EQ(entry.path().string().find(".partial"), std::string::npos) << entry.path();
   }
-  EXPECT_FALSE(std::filesystem::exists(run_folder_.frames()));
+  EXPECT_TRUE(std::filesystem::exists(run_folder_.trajectory()));
+  EXPECT_FALSE(std::filesystem::exists(run_folder_.map_points()));
+  EXPECT_FALSE(std::filesystem::exists(run_folder_.record()));
 }
 
 TEST_F(RunTest, TheSampleScanIsFromTheSecondHalf) {

@@ -1,6 +1,7 @@
 #include "slam_estimator.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -45,7 +46,7 @@ class AShortDrive : public ::testing::Test {
   }
   static void TearDownTestSuite() { delete drive_; }
 
-  static SlamEstimator estimator(bool with_imu, bool use_gravity) {
+  static SlamEstimator estimator(bool with_imu, bool use_gravity, bool with_gnss = false) {
     dataset::RecordingInfo recording;
     recording.path = "made";
     recording.rig.sensors.push_back(
@@ -53,6 +54,9 @@ class AShortDrive : public ::testing::Test {
     if (with_imu) {
       recording.rig.sensors.push_back(
           {"imu", sensors::SensorKind::kImu, kT_body_imu, std::nullopt});
+    }
+    if (with_gnss) {
+      recording.rig.sensors.push_back({"gnss", sensors::SensorKind::kGnss, {}, std::nullopt});
     }
     loam::ScanToMapOdometryOptions odometry;
     odometry.start.scans = 2;
@@ -127,6 +131,29 @@ TEST_F(AShortDrive, WithoutAnImuNothingChanges) {
   EXPECT_TRUE(are_same(corrected(unused, frames_unused), by_odometry));
   EXPECT_EQ(gravity_decision(without), "");
   EXPECT_EQ(gravity_decision(unused), "");
+}
+
+/// A driver that sends a scan twice: between two frames of one stamp nothing can be interpolated.
+TEST_F(AShortDrive, AFixBetweenFramesOfOneStampIsPlacedAtThem) {
+  SlamEstimator slam = estimator(false, false, true);
+  std::vector<PoseFrame> frames;
+  feed(slam, 0, 4, frames);
+  sensors::GnssFix fix;
+  fix.sensor = "gnss";
+  fix.stamp = drive_->scans[3].stamp;
+  fix.latitude_deg = 52;
+  fix.longitude_deg = 13;
+  fix.altitude_m = 40;
+  slam.process(fix);
+  feed(slam, 3, scans(), frames);
+  fix.latitude_deg = std::numeric_limits<double>::quiet_NaN();
+  slam.process(fix);
+  slam.finish();
+  const slam::Slam& done = slam.slam_map()->slam();
+  ASSERT_EQ(done.graph().fixes().size(), 1U);
+  EXPECT_TRUE(done.graph().fixes().front().antenna_body.allFinite());
+  EXPECT_LT(done.graph().fixes().front().antenna_body.norm(), 4);
+  EXPECT_EQ(done.failure(), "");
 }
 
 TEST_F(AShortDrive, ACopyGoesOnAlike) {

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -285,6 +286,51 @@ TEST(PoseGraph, AnUpThatIsFarOffIsRejected) {
   EXPECT_TRUE(disturbed.levels().back().is_rejected());
   for (std::size_t k = 0; k < drive.truth.size(); ++k) {
     EXPECT_LT(geometry::log_se3(clean.pose(k).inverse() * disturbed.pose(k)).norm(), 0.01);
+  }
+}
+
+/// A drive of one keyframe: nothing is free to move, whatever was measured there.
+TEST(PoseGraph, OneNodeIsSolved) {
+  const Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
+  for (const bool with_fix : {false, true}) {
+    for (const bool with_up : {false, true}) {
+      PoseGraph graph;
+      Pose3 start;
+      start.translation = {1, 2, 3};
+      graph.add_node(0, start);
+      if (with_fix) graph.add_gnss(0, {5, 6, 7}, covariance, {0, 0, 1});
+      if (with_up) graph.add_gravity(0, Eigen::Vector3d(0.1, 0, 1), 0.01);
+      for (const Start from : {Start::kLastSolution, Start::kGuesses}) {
+        const Result result = graph.optimise(from);
+        EXPECT_TRUE(result.is_usable) << result.message;
+        EXPECT_GE(result.iterations, 0);
+        EXPECT_FALSE(result.message.empty());
+        EXPECT_EQ(graph.pose(0).matrix(), start.matrix());
+      }
+    }
+  }
+}
+
+TEST(PoseGraph, AGraphThatCannotBeSolvedStaysAsItWas) {
+  const MadeDrive drive = short_drive(4);
+  PoseGraph graph = testing::odometry_graph(drive);
+  testing::add_loops(graph, drive, drive.loops);
+  ASSERT_TRUE(graph.optimise().is_usable);
+  const std::map<NodeId, Pose3> before = graph.poses();
+  const std::vector<Edge> edges = graph.edges();
+  Pose3 nowhere;
+  nowhere.translation.x() = std::numeric_limits<double>::quiet_NaN();
+  graph.add_between(3, 9, nowhere, drive.loop_covariance, EdgeKind::kOdometry);
+  for (const Start from : {Start::kLastSolution, Start::kGuesses}) {
+    const Result result = graph.optimise(from);
+    EXPECT_FALSE(result.is_usable);
+    EXPECT_FALSE(result.converged);
+    EXPECT_GE(result.iterations, 0);
+    EXPECT_FALSE(result.message.empty());
+    for (const auto& [id, pose] : before) EXPECT_EQ(graph.pose(id).matrix(), pose.matrix());
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      EXPECT_EQ(graph.edges()[e].weight, edges[e].weight);
+    }
   }
 }
 

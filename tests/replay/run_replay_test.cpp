@@ -30,7 +30,8 @@ class RunReplay : public ::testing::Test {
     options.last = 11;
     options.hash_recording = false;
     const auto source = recording.source();
-    pipeline::run(*source, pipeline, folder_, options, {});
+    const pipeline::RunRecord record = pipeline::run(*source, pipeline, folder_, options, {});
+    EXPECT_EQ(record.status, pipeline::RunStatus::kOk) << record.reason;
   }
   Recording open(const std::filesystem::path& moved_to = {}) const {
     return Recording::open(folder_.path, testing::open_options(), moved_to);

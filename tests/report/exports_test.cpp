@@ -21,6 +21,12 @@ TEST(Csv, KeepsEveryDigitAndQuotesAsTheStandardSays) {
             "50 % of x_1 & {<},-2.5,1\r\n");
 }
 
+TEST(Csv, NothingThatASpreadsheetComputes) {
+  HtmlTable result("t", "A table", {"name", "=1+1"});
+  result.add_row({"=cmd|'/c calc'!A1", -2.5});
+  EXPECT_EQ(to_csv(result.json()), "name,\"'=1+1\"\r\n\"'=cmd|'/c calc'!A1\",-2.5\r\n");
+}
+
 TEST(Latex, EscapesWhatLatexWouldTakeForItself) {
   EXPECT_EQ(to_latex(table().json()),
             "% A table; needs \\usepackage{booktabs}\n\\begin{tabular}{lrr}\n\\toprule\n"

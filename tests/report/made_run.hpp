@@ -16,7 +16,7 @@
 
 namespace traverse::report {
 
-inline constexpr const char* kEvil = "<script>alert('x')</script> & \"quoted\"";
+inline constexpr const char* kEvil = "=<script>alert('x')</script> & \"quoted\"";
 inline constexpr const char* kTemplates = TRAVERSE_SOURCE_DIR "/reports/templates";
 
 struct MadeRunOptions {

@@ -22,6 +22,7 @@
 #include "run_data.hpp"
 #include "run_figures.hpp"
 #include "temporary_folder.hpp"
+#include "web_libraries.hpp"
 
 namespace traverse::report {
 namespace {
@@ -41,7 +42,7 @@ class MadeRun {
   }
 
   ReportModel model() const {
-    const RunData run = read_run(folder.path());
+    const RunData run = read_run(folder.path(), pipeline::RunPart::kAll);
     const auto worst =
         evaluation::worst_segments(run.evaluation, run.frames.column("residual_rms_m"));
     return make_model(run, run_figures(run), worst, nullptr);
@@ -75,6 +76,29 @@ TEST(Page, AsksTheNetworkForNothing) {
     const std::string target = (*match)[1];
     EXPECT_TRUE(target.starts_with("#") || target.starts_with("data:")) << target.substr(0, 80);
   }
+}
+
+/// The version that a library of the page tells after `key`.
+std::string version_of(std::string_view code, const std::string& key) {
+  const std::size_t begin = code.find(key + "=\"") + key.size() + 2;
+  return std::string(code.substr(begin, code.find('"', begin) - begin));
+}
+
+TEST(Page, HoldsTheNoticesOfItsLibrariesAndTheirVersions) {
+  const std::string page = without_scripts(MadeRun(0.1).page());
+  EXPECT_THAT(page, HasSubstr("three.js r" + version_of(web::three(), "REVISION") + ","));
+  EXPECT_THAT(page, HasSubstr("dygraphs " + version_of(web::dygraphs(), "VERSION") + ","));
+  EXPECT_THAT(page, HasSubstr("three.js authors\n"));
+  EXPECT_THAT(page, HasSubstr("Dan Vanderkam"));
+  std::size_t notices = 0;
+  for (std::size_t at = 0; (at = page.find("<pre>", at)) != std::string::npos; ++at) {
+    const std::string notice = page.substr(at, page.find("</pre>", at) - at);
+    const bool whole =
+        notice.find("Permission is hereby granted, free of charge") != std::string::npos &&
+        notice.find("WITHOUT WARRANTY OF ANY KIND") != std::string::npos;
+    if (whole) ++notices;
+  }
+  EXPECT_EQ(notices, 2U);
 }
 
 /// What stands between `begin` and `end` after `from`, which is moved behind it.
@@ -143,7 +167,7 @@ TEST(Page, EveryNumberIsThatOfTheJson) {
 
 TEST(ReportJson, AgreesWithEvaluationAndFrames) {
   const MadeRun run(0.1);
-  const RunData data = read_run(run.folder.path());
+  const RunData data = read_run(run.folder.path(), pipeline::RunPart::kAll);
   const Json json = run.model().model.json;
   const auto& ape = data.evaluation.comparison->ape.front();
   EXPECT_EQ(json["figures"]["ape_rmse_m"]["value"], ape.statistics.rmse);
@@ -166,7 +190,7 @@ TEST(ReportJson, AgreesWithEvaluationAndFrames) {
 
 TEST(Page, NumbersAreThoseOfTheEvaluation) {
   const MadeRun run(0.1);
-  const RunData data = read_run(run.folder.path());
+  const RunData data = read_run(run.folder.path(), pipeline::RunPart::kAll);
   const auto& ape = data.evaluation.comparison->ape.front().statistics;
   const std::string page = run.page();
   for (const double value : {ape.rmse, ape.mean, ape.median, ape.std, ape.max}) {
@@ -234,7 +258,7 @@ TEST(RunReport, DrawsMapsLargeForPaperBesideThePage) {
 TEST(RunReport, ShowsHowFramesOfTheWorstSegmentsWereRegistered) {
   const MadeRun run(0.1);
   const pipeline::RunFolder files{run.folder.path()};
-  const RunData data = read_run(run.folder.path());
+  const RunData data = read_run(run.folder.path(), pipeline::RunPart::kAll);
   const auto worst = evaluation::worst_segments(data.evaluation, {}).segments.at(1);
   const auto frame = static_cast<std::uint32_t>(worst.first + 3);  // made frames count from 0
   dataset::PointCloud cloud;

@@ -167,6 +167,13 @@ TEST(LidarSimulator, SaysWhatAProfileLacks) {
   profile.firing.times_us.pop_back();
   EXPECT_THROW(lidar_in(town, profile), std::invalid_argument);
   EXPECT_THROW(lidar_in(town, sensors::LidarProfile()), std::invalid_argument);
+  profile = profile_of("vlp16");
+  profile.firing.period_us = 1e-6;  // 10^11 columns
+  EXPECT_THROW(lidar_in(town, profile), std::invalid_argument);
+  profile = profile_of("vlp16");
+  profile.sweep_s = 1e300;
+  profile.firing.period_us = 1e306;
+  EXPECT_THROW(lidar_in(town, profile), std::invalid_argument);
 }
 
 }  // namespace

@@ -92,5 +92,17 @@ TEST(Route, WhatCannotBeDrivenSaysWhichKeyIsWrong) {
   EXPECT_EQ(error_of(settings).key, "stops_m");
 }
 
+TEST(Route, AbsurdLengthsAreRefusedBeforeMemoryIsTaken) {
+  RouteSettings settings = square();
+  for (const double far : {1e7, 1e300}) {
+    settings.waypoints_m = {0, 0, far, 0, far, far, 0, far};
+    EXPECT_EQ(error_of(settings).key, "waypoints_m") << far;
+  }
+  settings = square();
+  settings.laps = 1000;
+  settings.speed_mps = 0.1;
+  EXPECT_EQ(error_of(settings).key, "laps");
+}
+
 }  // namespace
 }  // namespace traverse::simulation

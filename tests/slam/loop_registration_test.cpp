@@ -1,5 +1,6 @@
 #include "traverse/slam/loop_registration.hpp"
 
+#include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -97,6 +98,25 @@ TEST(LoopStarts, CoverTheRegionFromTheInsideOut) {
   EXPECT_EQ(starts_around(guess, {0, 0}, options).size(), 1U);
   EXPECT_LE(starts_around(guess, {500, std::numbers::pi}, options).size(),
             static_cast<std::size_t>(2 * options.most_starts));
+}
+
+/// After tracking was lost a prediction is off by kilometres and many turns.
+TEST(LoopStarts, AreFewHoweverLargeTheRegionIs) {
+  const LoopRegistrationOptions usual;
+  LoopRegistrationOptions fine;
+  fine.start_spacing_m = 1e-6;
+  fine.start_spacing_deg = 1e-6;
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const LoopRegistrationOptions& options : {usual, fine}) {
+    for (const double radius_m : {0.0, 2.0, 500.0, 30e3, 2e9, 1e300, infinite}) {
+      for (const double half_turn_rad : {0.0, 0.1, 3.2, 1e4, 1e12, 1e300, infinite}) {
+        const auto starts = starts_around({}, {radius_m, half_turn_rad}, options);
+        EXPECT_GE(starts.size(), 1U);
+        EXPECT_LE(starts.size(), static_cast<std::size_t>(3 * options.most_starts))
+            << radius_m << " m, " << half_turn_rad << " rad";
+      }
+    }
+  }
 }
 
 }  // namespace

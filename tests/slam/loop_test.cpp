@@ -5,6 +5,7 @@
 
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
+#include "traverse/files/text_file.hpp"
 #include "traverse/geometry/so3.hpp"
 
 #include "temporary_folder.hpp"
@@ -49,7 +50,9 @@ TEST(Loops, ReadBackAsWritten) {
 TEST(Loops, AWrongVerdictIsNamedWithItsLine) {
   const testing::TemporaryFolder folder;
   write_loops(folder / "loops.csv", std::vector<Loop>{example()});
-  files::write_text(folder / "bad.csv", "keyframe\n3,1.5,2,0.5,position,perhaps\n");
+  const std::string whole = files::read_text(folder / "loops.csv");
+  const std::string head = whole.substr(0, whole.find('\n') + 1);
+  files::write_text(folder / "bad.csv", head + "3,1.5,2,0.5,position,perhaps\n");
   try {
     read_loops(folder / "bad.csv");
     FAIL() << "read";
@@ -57,6 +60,8 @@ TEST(Loops, AWrongVerdictIsNamedWithItsLine) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("line 2"));
     EXPECT_THAT(error.what(), ::testing::HasSubstr("'perhaps'"));
   }
+  files::write_text(folder / "cut.csv", head.substr(0, head.size() / 2));
+  EXPECT_THROW(read_loops(folder / "cut.csv"), files::InputError) << "of columns";
 }
 
 }  // namespace

@@ -83,6 +83,54 @@ TEST(RingKeyIndex, ACopyGivesTheSameAnswersAndGrowsOnItsOwn) {
     EXPECT_EQ(index.nearest(asked, 10), copy.nearest(asked, 10));
 }
 
+/// A vehicle that comes back to a place again and again without noise, and the drive around it.
+TEST(RingKeyIndex, ManyEqualKeysHideNoOther) {
+  const auto keys = walk(500, 6);
+  const std::vector<float> often(20, 0.5F);
+  for (const bool equal_ones_first : {true, false}) {
+    RingKeyIndex index(20);
+    if (!equal_ones_first) {
+      for (const auto& key : keys) index.add(key);
+    }
+    for (int k = 0; k < 600; ++k) index.add(often);
+    if (equal_ones_first) {
+      for (const auto& key : keys) index.add(key);
+    }
+    const RingKeyIndex copy = index;
+    const std::size_t first = equal_ones_first ? 600 : 0;
+    const std::size_t first_equal = equal_ones_first ? 0 : keys.size();
+    std::size_t findable = 0;
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      findable += copy.nearest(keys[k], 1).front() == first + k ? 1 : 0;
+    }
+    EXPECT_EQ(findable, keys.size());
+    EXPECT_EQ(index.size(), 1100U);
+    const auto equal = index.nearest(often, 20);
+    ASSERT_EQ(equal.size(), 20U);
+    for (std::size_t k = 0; k < 20; ++k) EXPECT_EQ(equal[k], first_equal + k);
+    EXPECT_EQ(index.nearest(often, 601).size(), 601U);
+  }
+}
+
+/// The same with the noise of a few sectors.
+TEST(RingKeyIndex, ManyKeysThatAreNearlyEqualHideNoOther) {
+  const auto keys = walk(500, 7);
+  std::mt19937 generator(8);
+  std::uniform_int_distribution<std::size_t> ring(0, 19);
+  RingKeyIndex index(20);
+  for (int k = 0; k < 600; ++k) {
+    std::vector<float> near(20, 0.5F);
+    for (int change = 0; change < k % 4; ++change) near[ring(generator)] += 1.0F / 60;
+    index.add(near);
+  }
+  for (const auto& key : keys) index.add(key);
+  std::size_t findable = 0;
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    findable += index.nearest(keys[k], 1).front() == 600 + k ? 1 : 0;
+  }
+  EXPECT_EQ(findable, keys.size());
+}
+
 TEST(RingKeyIndex, EmptyAndWrongNumberOfRings) {
   RingKeyIndex index(20);
   EXPECT_TRUE(index.nearest(std::vector<float>(20), 5).empty());

@@ -137,6 +137,45 @@ TEST(Slam, GravityUndoesTheTiltOfOdometry) {
   EXPECT_LT(tilt(corrected(slam, drive).back()), 0.001);
 }
 
+/// Half an hour without registration; then the street from its beginning, by odometry somewhere
+/// else. What odometry may have lost is kilometres and many turns, which no search can cover.
+TEST(Slam, AfterTrackingWasLostAPlaceIsSearchedWhereItLooksAlike) {
+  MadeDrive drive(geometry::Twist::Zero());
+  drive.pass(4.4, simulation::Drive{});
+  const std::size_t before = drive.frames().size();
+  simulation::Drive beside;
+  beside.amplitude_m = 1;
+  drive.pass(1, beside);
+  Slam slam(options(), drive.profile());
+  std::vector<std::size_t> frame_of;
+  const auto follow = [&](std::size_t first, std::size_t last, const geometry::Pose3& elsewhere) {
+    for (std::size_t k = first; k < last; ++k) {
+      const MadeFrame& made = drive.frames()[k];
+      lidar::Frame frame = made.frame;
+      frame.T_map_lidar = elsewhere * frame.T_map_lidar;
+      if (!slam.wants(frame)) continue;
+      slam.add(frame, made.scan, testing::points_of(made, drive.profile()), true);
+      frame_of.push_back(k);
+    }
+  };
+  follow(0, before, {});
+  lidar::Frame lost = drive.frames()[before - 1].frame;
+  lost.health = {};
+  for (int k = 0; k < 18'000; ++k) ASSERT_FALSE(slam.wants(lost));
+  follow(before, drive.frames().size(), {geometry::exp_so3({0, 0, 0.4}), {3000, 500, 20}});
+  slam.finish();
+
+  std::size_t right = 0;
+  for (const Loop& loop : slam.loops()) {
+    if (loop.prediction_sigma_m < 1000) continue;
+    const geometry::Pose3 truth = drive.frames()[frame_of[loop.candidate]].T_truth.inverse() *
+                                  drive.frames()[frame_of[loop.keyframe]].T_truth;
+    const geometry::Twist off = geometry::log_se3(truth.inverse() * loop.T_candidate_keyframe);
+    right += loop.is_accepted() && off.tail<3>().norm() < 0.1 ? 1 : 0;
+  }
+  EXPECT_GE(right, 2U);
+}
+
 /// Two streets that look exactly the same, 200 m apart by odometry.
 TEST(Slam, APlaceThatOnlyLooksTheSameIsTurnedAway) {
   MadeDrive drive(geometry::Twist::Zero());

@@ -4,18 +4,14 @@
 #include <cmath>
 #include <numeric>
 
-#include <nlohmann/json.hpp>
-
 #include "traverse/batch/metric.hpp"
-#include "traverse/files/input_error.hpp"
-#include "traverse/files/text_file.hpp"
+#include "traverse/files/json_document.hpp"
 
 namespace traverse::batch {
 
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 constexpr double kLeastChange = 0.01;
 constexpr double kLeastChangeOfTimes = 0.10;
@@ -121,17 +117,16 @@ Change judge_change(const std::vector<std::pair<double, double>>& before_and_now
 
 Baseline::Baseline(const fs::path& baseline)
     : file_(fs::is_directory(baseline) ? baseline / "results.json" : baseline) {
-  try {
-    const json document = json::parse(files::read_text(file_));
-    for (const json& run : document.at("runs")) {
-      if (run.at("outcome").is_null()) continue;
-      Run& earlier = runs_[{run.at("recording"), run.at("variant"), run.at("repeat")}];
-      earlier.ok = run.at("outcome") == "ok";
-      earlier.metrics = run.at("metrics").get<std::map<std::string, double>>();
-    }
-  } catch (const json::exception& error) {
-    throw files::InputError(file_, files::Place::whole_file(), "the results.json of a batch",
-                            error.what());
+  const auto document = files::JsonDocument::read(file_);
+  const files::JsonValue runs = document.root()["runs"];
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const files::JsonValue run = runs[i];
+    if (run["outcome"].is_null()) continue;
+    Run& earlier =
+        runs_[{run["recording"].text(), run["variant"].text(), run["repeat"].small_integer()}];
+    earlier.ok = run["outcome"].text() == "ok";
+    const files::JsonValue metrics = run["metrics"];
+    for (const std::string& name : metrics.keys()) earlier.metrics[name] = metrics[name].number();
   }
 }
 

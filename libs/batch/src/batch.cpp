@@ -14,6 +14,7 @@
 
 #include "baseline.hpp"
 #include "lock.hpp"
+#include "own_folder.hpp"
 #include "program_id.hpp"
 #include "recordings.hpp"
 #include "report.hpp"
@@ -136,6 +137,7 @@ BatchEnd run_batch(Plan plan, const BatchFolder& folder, const BatchOptions& opt
   static const std::atomic<bool> kNever{false};
   const std::atomic<bool>& stop = observer.stop != nullptr ? *observer.stop : kNever;
   if (options.executor == Executor::kLocal) check_this_machine(plan);
+  require_own_folder(folder, plan.text);
   folder.prepare();
   const BatchLock lock(lock_file(folder, options.shard));
   Journal journal(folder.journals());

@@ -3,13 +3,14 @@
 #include <nlohmann/json.hpp>
 
 #include "traverse/files/input_error.hpp"
-#include "traverse/files/text_file.hpp"
+#include "traverse/files/json_document.hpp"
 
 namespace traverse::batch {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
+using files::JsonValue;
 
 Outcome outcome_of(const std::string& name) {
   for (const auto& [known, outcome] : kOutcomeNames) {
@@ -25,36 +26,37 @@ Json to_json(const RunLimits& limits) {
           {"attempts", limits.attempts}};
 }
 
-RunLimits limits_of(const Json& record) {
+RunLimits limits_of(const JsonValue& record) {
   RunLimits limits;
-  record.at("time_s").get_to(limits.time_s);
-  record.at("memory_mb").get_to(limits.memory_mb);
-  record.at("threads").get_to(limits.threads);
-  record.at("attempts").get_to(limits.attempts);
+  limits.time_s = record["time_s"].number();
+  limits.memory_mb = record["memory_mb"].number();
+  limits.threads = record["threads"].small_integer();
+  limits.attempts = record["attempts"].small_integer();
   return limits;
 }
 
-Completion completion_of(const Json& record) {
+Completion completion_of(const JsonValue& record) {
   Completion completion;
-  record.at("id").get_to(completion.id);
-  record.at("identity").get_to(completion.identity);
-  completion.outcome = outcome_of(record.at("outcome"));
-  record.at("reason").get_to(completion.reason);
-  record.at("exit_status").get_to(completion.exit_status);
-  record.at("signal").get_to(completion.signal);
-  record.at("attempts").get_to(completion.attempts);
-  record.at("host").get_to(completion.host);
-  record.at("started_utc").get_to(completion.started_utc);
-  record.at("wall_s").get_to(completion.wall_s);
-  record.at("cpu_s").get_to(completion.cpu_s);
-  record.at("peak_memory_mb").get_to(completion.peak_memory_mb);
-  completion.limits = limits_of(record.at("limits"));
-  record.at("has_report").get_to(completion.has_report);
-  record.at("trajectory_sha256").get_to(completion.trajectory_sha256);
-  for (const auto& [name, value] : record.at("metrics").items()) {
-    completion.metrics.emplace_back(name, value.get<double>());
+  completion.id = record["id"].text();
+  completion.identity = record["identity"].text();
+  completion.outcome = outcome_of(record["outcome"].text());
+  completion.reason = record["reason"].text();
+  completion.exit_status = record["exit_status"].small_integer();
+  completion.signal = record["signal"].small_integer();
+  completion.attempts = record["attempts"].small_integer();
+  completion.host = record["host"].text();
+  completion.started_utc = record["started_utc"].text();
+  completion.wall_s = record["wall_s"].number();
+  completion.cpu_s = record["cpu_s"].number();
+  completion.peak_memory_mb = record["peak_memory_mb"].number();
+  completion.limits = limits_of(record["limits"]);
+  completion.has_report = record["has_report"].boolean();
+  completion.trajectory_sha256 = record["trajectory_sha256"].text();
+  const JsonValue metrics = record["metrics"];
+  for (const std::string& name : metrics.keys()) {
+    completion.metrics.emplace_back(name, metrics[name].number());
   }
-  record.at("last_lines").get_to(completion.last_lines);
+  completion.last_lines = record["last_lines"].texts();
   return completion;
 }
 
@@ -91,12 +93,7 @@ std::string to_json(const Completion& completion) {
 }
 
 Completion read_completion(const std::filesystem::path& file) {
-  try {
-    return completion_of(Json::parse(files::read_text(file)));
-  } catch (const Json::exception& error) {
-    throw files::InputError(file, files::Place::whole_file(), "the record of a finished run",
-                            error.what());
-  }
+  return completion_of(files::JsonDocument::read(file).root());
 }
 
 std::optional<Completion> find_completion(const std::filesystem::path& file) {

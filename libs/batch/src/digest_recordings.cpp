@@ -9,7 +9,7 @@
 
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/digest.hpp"
-#include "traverse/files/text_file.hpp"
+#include "traverse/files/json_document.hpp"
 
 #include "recordings.hpp"
 
@@ -82,11 +82,24 @@ std::string digest(const std::vector<NamedFile>& files) {
   return files::sha256_of_text(text);
 }
 
+/// What an earlier call found; nothing of a file that is not one of ours.
 json read_known(const fs::path& file) {
   std::error_code none;
   if (!fs::exists(file, none)) return json::object();
-  json known = json::parse(files::read_text(file), nullptr, /*allow_exceptions=*/false);
-  return known.is_object() ? known : json::object();
+  try {
+    json known = json::object();
+    const auto document = files::JsonDocument::read(file);
+    const files::JsonValue root = document.root();
+    for (const std::string& name : root.keys()) {
+      known[name] = {{"path", root[name]["path"].text()},
+                     {"files", root[name]["files"].count()},
+                     {"fingerprint", root[name]["fingerprint"].text()},
+                     {"sha256", root[name]["sha256"].text()}};
+    }
+    return known;
+  } catch (const files::InputError&) {
+    return json::object();
+  }
 }
 
 }  // namespace

@@ -1,27 +1,33 @@
 #include "traverse/batch/execute.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <deque>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <unistd.h>
 #include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "traverse/batch/metric.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/digest.hpp"
 #include "traverse/files/input_error.hpp"
+#include "traverse/files/json_document.hpp"
 #include "traverse/files/numbers.hpp"
+#include "traverse/files/unfinished.hpp"
 #include "traverse/pipeline/provenance.hpp"
+#include "traverse/pipeline/run_destination.hpp"
 #include "traverse/pipeline/run_folder.hpp"
 
 #include "host_name.hpp"
+#include "run_output.hpp"
 #include "run_process.hpp"
 
 namespace traverse::batch {
@@ -34,6 +40,9 @@ using Cause = ProcessEnd::Cause;
 constexpr std::size_t kLastLines = 20;
 constexpr std::size_t kLongestLine = 400;
 constexpr const char* kPartial = ".partial";
+constexpr const char* kDiscarded = ".discarded";
+constexpr std::array kAskedToEnd{SIGINT, SIGTERM, SIGHUP};
+constexpr int kSignalled = 128;  // and the signal: a run that was asked to end has done so
 
 /// ".0123456789abcdef.host.4711.partial"
 fs::path work_folder(const BatchFolder& folder, const Job& job) {
@@ -64,10 +73,13 @@ struct RunStatus {
 };
 
 RunStatus status_of(const fs::path& run_folder) {
-  std::ifstream stream(pipeline::RunFolder{run_folder}.record());
-  const auto record = nlohmann::json::parse(stream, nullptr, /*allow_exceptions=*/false);
-  if (!record.is_object()) return {};
-  return {record.value("status", ""), record.value("reason", "")};
+  try {
+    const auto document = files::JsonDocument::read(pipeline::RunFolder{run_folder}.record());
+    const files::JsonValue record = document.root();
+    return {record["status"].text(), record.has("reason") ? record["reason"].text() : ""};
+  } catch (const files::InputError&) {
+    return {};  // a run that crashed before it wrote its record, or while it did
+  }
 }
 
 /// How often the system killed something because memory ran out.
@@ -93,8 +105,11 @@ std::string message_of(const std::vector<std::string>& lines) {
 bool was_killed(const ProcessEnd& end, const RunStatus& status, bool memory_ran_out) {
   if (end.cause != Cause::kItself) return false;
   if (end.signal == SIGKILL) return !memory_ran_out;
-  return end.signal == SIGTERM || end.signal == SIGINT || end.signal == SIGHUP ||
-         status.status == "interrupted";  // it ends in order on SIGTERM
+  return std::any_of(kAskedToEnd.begin(), kAskedToEnd.end(),
+                     [&](int signal) {
+                       return end.signal == signal || end.exit_status == kSignalled + signal;
+                     }) ||
+         status.status == "interrupted";
 }
 
 void judge(const Job& job, const ProcessEnd& end, bool memory_ran_out, Completion& completion) {
@@ -105,7 +120,7 @@ void judge(const Job& job, const ProcessEnd& end, bool memory_ran_out, Completio
   } else if (end.cause == Cause::kMemoryLimit) {
     completion.outcome = Outcome::kOutOfMemory;
     completion.reason = fmt::format("more than {:g} MB", job.limits.memory_mb);
-  } else if (memory_ran_out || message.find("std::bad_alloc") != std::string::npos) {
+  } else if (memory_ran_out || message.find("out of memory") != std::string::npos) {
     completion.outcome = Outcome::kOutOfMemory;
     completion.reason = "the machine had no more memory";
   } else if (end.signal != 0) {
@@ -155,6 +170,22 @@ Completion publish(const fs::path& work, const Job& job, const Completion& compl
   return completion;
 }
 
+/// What the run has written comes into the folder that its log is in already.
+void take_out_of_its_folder(const fs::path& work) {
+  std::error_code failure;
+  std::vector<fs::path> written;
+  for (const auto& entry : fs::directory_iterator(work / kRunOutput, failure)) {
+    written.push_back(entry.path());
+  }
+  for (const fs::path& path : written) {
+    fs::rename(path, work / path.filename(), failure);
+    if (failure) throw files::OutputError(work, failure.message());
+  }
+  fs::remove(work / kRunOutput, failure);
+  // What a killed run was writing to is not finished.
+  fs::remove_all(pipeline::RunDestination::work_folder(work / kRunOutput), failure);
+}
+
 Completion finish(const fs::path& work, const Job& job, const ProcessEnd& end, bool memory_ran_out,
                   Completion completion, const BatchFolder& folder) {
   completion.exit_status = end.exit_status;
@@ -162,12 +193,32 @@ Completion finish(const fs::path& work, const Job& job, const ProcessEnd& end, b
   completion.wall_s = end.wall_s;
   completion.cpu_s = end.cpu_s;
   completion.peak_memory_mb = end.peak_memory_mb;
+  take_out_of_its_folder(work);
   completion.last_lines = last_lines(work / "log.txt");
   judge(job, end, memory_ran_out, completion);
   if (completion.outcome == Outcome::kOk) completion.last_lines.clear();
   add_results(work, completion);
   files::write_text(work / "result.json", to_json(completion));
   return publish(work, job, completion, folder);
+}
+
+/// The process of this host that a folder of such a name belongs to; nothing for any other name.
+std::optional<std::int64_t> maker_of(std::string_view name) {
+  constexpr std::size_t kDigits = 16;
+  const auto take = [&](std::string_view end) {
+    if (!name.ends_with(end)) return false;
+    name.remove_suffix(end.size());
+    return true;
+  };
+  if (!take(kPartial)) return std::nullopt;
+  if (take(kDiscarded) && !take(kPartial)) return std::nullopt;
+  const std::string ours = "." + host_name() + ".";
+  if (name.size() < 1 + kDigits || name[0] != '.') return std::nullopt;
+  const std::string_view id = name.substr(1, kDigits);
+  if (id.find_first_not_of("0123456789abcdef") != std::string_view::npos) return std::nullopt;
+  name.remove_prefix(1 + kDigits);
+  if (!name.starts_with(ours)) return std::nullopt;
+  return files::parse_integer(name.substr(ours.size()));
 }
 
 }  // namespace
@@ -178,6 +229,7 @@ fs::path log_in_work(const BatchFolder& folder, const Job& job) {
 
 std::optional<Completion> execute(const Job& job, const ExecutionContext& context) {
   const fs::path work = work_folder(context.folder, job);
+  const files::Unfinished unfinished(work);
   Completion completion;
   completion.id = job.id;
   completion.identity = job.identity;
@@ -200,8 +252,9 @@ std::optional<Completion> execute(const Job& job, const ExecutionContext& contex
     }
     const bool memory_ran_out = end.cause == Cause::kItself && end.signal == SIGKILL &&
                                 out_of_memory_kills() > kills_before;
-    if (was_killed(end, status_of(work), memory_ran_out)) {
-      context.journal.killed(job, end.signal);
+    if (was_killed(end, status_of(work / kRunOutput), memory_ran_out)) {
+      context.journal.killed(
+          job, end.signal != 0 ? end.signal : std::max(0, end.exit_status - kSignalled));
       if (attempt < job.limits.attempts) continue;
     }
     completion = finish(work, job, end, memory_ran_out, std::move(completion), context.folder);
@@ -212,7 +265,7 @@ std::optional<Completion> execute(const Job& job, const ExecutionContext& contex
 
 void discard(const BatchFolder& folder, const Job& job) {
   // First out of the way by one rename: a folder that is half removed must not look finished.
-  const fs::path aside = work_folder(folder, job).string() + ".discarded" + kPartial;
+  const fs::path aside = work_folder(folder, job).string() + kDiscarded + kPartial;
   std::error_code failure;
   fs::remove_all(aside, failure);
   fs::rename(folder.run(job.id), aside, failure);
@@ -224,14 +277,9 @@ void discard(const BatchFolder& folder, const Job& job) {
 void remove_abandoned(const BatchFolder& folder) {
   std::error_code failure;
   for (const auto& entry : fs::directory_iterator(folder.runs(), failure)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with('.') || !name.ends_with(kPartial)) continue;
-    const std::string ours = "." + host_name() + ".";
-    const std::size_t at = name.find(ours);
-    if (at == std::string::npos) continue;
-    const std::size_t digits = at + ours.size();
-    const auto pid = files::parse_integer(name.substr(digits, name.find('.', digits) - digits));
-    const bool alive = pid && *pid != ::getpid() && ::kill(static_cast<pid_t>(*pid), 0) == 0;
+    const auto pid = maker_of(entry.path().filename().string());
+    if (!pid) continue;
+    const bool alive = *pid != ::getpid() && ::kill(static_cast<pid_t>(*pid), 0) == 0;
     if (!alive) fs::remove_all(entry.path(), failure);
   }
 }

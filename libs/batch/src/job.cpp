@@ -10,11 +10,13 @@
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/digest.hpp"
 #include "traverse/files/input_error.hpp"
+#include "traverse/files/json_document.hpp"
 #include "traverse/files/text_file.hpp"
 #include "traverse/pipeline/registry.hpp"
 #include "traverse/pipeline/run_record.hpp"
 
 #include "plan_error.hpp"
+#include "run_output.hpp"
 
 namespace traverse::batch {
 
@@ -47,7 +49,7 @@ Variant resolve(const PlannedPipeline& pipeline, std::vector<std::string> point,
 std::vector<std::string> run_arguments(const Plan& plan, const PlannedRecording& recording,
                                        const Variant& variant) {
   // The run works inside its own folder, so that its command holds wherever that is moved to.
-  std::vector<std::string> words{"run", recording.path.string(), "-o", "."};
+  std::vector<std::string> words{"run", recording.path.string(), "-o", kRunOutput};
   const auto add = [&](const char* option, const std::string& value) {
     words.insert(words.end(), {option, value});
   };
@@ -95,19 +97,19 @@ json to_json(const Job& job) {
           {"attempts", job.limits.attempts}};
 }
 
-Job from_json(const json& line) {
+Job job_of(const files::JsonValue& line) {
   Job job;
-  line.at("id").get_to(job.id);
-  line.at("identity").get_to(job.identity);
-  line.at("recording").get_to(job.recording);
-  line.at("pipeline").get_to(job.pipeline);
-  line.at("settings").get_to(job.settings);
-  line.at("repeat").get_to(job.repeat);
-  line.at("arguments").get_to(job.arguments);
-  line.at("time_s").get_to(job.limits.time_s);
-  line.at("memory_mb").get_to(job.limits.memory_mb);
-  line.at("threads").get_to(job.limits.threads);
-  line.at("attempts").get_to(job.limits.attempts);
+  job.id = line["id"].text();
+  job.identity = line["identity"].text();
+  job.recording = line["recording"].text();
+  job.pipeline = line["pipeline"].text();
+  job.settings = line["settings"].texts();
+  job.repeat = line["repeat"].small_integer();
+  job.arguments = line["arguments"].texts();
+  job.limits.time_s = line["time_s"].number();
+  job.limits.memory_mb = line["memory_mb"].number();
+  job.limits.threads = line["threads"].small_integer();
+  job.limits.attempts = line["attempts"].small_integer();
   return job;
 }
 
@@ -173,9 +175,10 @@ std::vector<Job> read_jobs(const std::filesystem::path& file, std::size_t first,
   for (std::size_t number = 0; jobs.size() < count && reader.next(); ++number) {
     if (number < first) continue;
     try {
-      jobs.push_back(from_json(json::parse(reader.line())));
-    } catch (const json::exception& error) {
-      throw reader.error("a job", error.what());
+      jobs.push_back(job_of(files::JsonDocument::parse(reader.line()).root()));
+    } catch (const files::InputError& error) {
+      throw reader.error("a job with " + error.expected() + " (" + error.place().text + ")",
+                         error.found());
     }
   }
   return jobs;

@@ -106,8 +106,11 @@ std::vector<JournalEntry> read_journals(const std::filesystem::path& folder) {
     std::ifstream stream(file.path());
     for (std::string text; std::getline(stream, text);) {
       const Json line = Json::parse(text, nullptr, /*allow_exceptions=*/false);
-      if (!line.is_object() || !line.contains("event") || !line.contains("utc")) continue;
-      entries.push_back(entry_of(line));
+      try {
+        entries.push_back(entry_of(line));
+      } catch (const Json::exception&) {
+        continue;  // half a line of a killed process, or somebody else's
+      }
     }
   }
   std::stable_sort(entries.begin(), entries.end(),

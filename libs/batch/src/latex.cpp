@@ -1,3 +1,5 @@
+#include "traverse/files/latex.hpp"
+
 #include <cmath>
 #include <limits>
 
@@ -11,35 +13,6 @@
 namespace traverse::batch {
 
 namespace {
-
-std::string escaped(const std::string& text) {
-  std::string latex;
-  for (const char c : text) {
-    switch (c) {
-      case '\\':
-        latex += "\\textbackslash{}";
-        break;
-      case '~':
-        latex += "\\textasciitilde{}";
-        break;
-      case '^':
-        latex += "\\textasciicircum{}";
-        break;
-      case '&':
-      case '%':
-      case '$':
-      case '#':
-      case '_':
-      case '{':
-      case '}':
-        latex += '\\';
-        [[fallthrough]];
-      default:
-        latex += c;
-    }
-  }
-  return latex;
-}
 
 struct Column {
   std::string head;
@@ -109,10 +82,10 @@ std::string leaderboard_latex(const std::vector<VariantSummary>& variants,
   std::string text = "% Needs \\usepackage{booktabs}. Means over recordings of runs that are ok.\n";
   text += "\\begin{tabular}{lr" + std::string(columns.size(), 'r') + "}\n\\toprule\n";
   text += "Pipeline & Runs ok";
-  for (const Column& column : columns) text += " & " + escaped(column.head);
+  for (const Column& column : columns) text += " & " + files::latex_text(column.head);
   text += " \\\\\n\\midrule\n";
   for (std::size_t row = 0; row < variants.size(); ++row) {
-    text += fmt::format("{} & {}/{}", escaped(variants[row].variant), variants[row].ok,
+    text += fmt::format("{} & {}/{}", files::latex_text(variants[row].variant), variants[row].ok,
                         variants[row].runs);
     for (const Column& column : columns) text += " & " + cell(column, row);
     text += " \\\\\n";

@@ -1,7 +1,5 @@
 #include <csignal>
 #include <string>
-#include <system_error>
-#include <unistd.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,15 +20,18 @@ namespace fs = std::filesystem;
 
 /// Ended by something outside, which would not happen again.
 bool was_killed(const ProcessEnd& end) {
+  constexpr int kStatusOfSignals = 128;  // and the signal: it was asked to end
   return end.cause == ProcessEnd::Cause::kItself &&
-         (end.signal == SIGKILL || end.signal == SIGTERM);
+         (end.signal == SIGKILL || end.signal == SIGTERM ||
+          end.exit_status == kStatusOfSignals + SIGTERM);
 }
 
 /// Runs `traverse simulate` in a folder that gets its name when it is complete.
 void make(const PlannedRecording& recording, const fs::path& place, const fs::path& program,
           int attempts, const std::atomic<bool>& stop) {
   files::AtomicFolder folder(place);
-  const fs::path log = place.string() + ".log";
+  const files::AtomicFile messages(place.string() + ".log");  // never committed
+  const fs::path& log = messages.temporary_path();
   ProcessStart start{
       program, {"simulate", recording.generated->world}, folder.temporary_path(), log};
   for (const std::string& word : recording.generated->arguments) start.arguments.push_back(word);
@@ -47,8 +48,6 @@ void make(const PlannedRecording& recording, const fs::path& place, const fs::pa
         end.signal != 0 ? fmt::format("signal {}", end.signal) : files::read_text(log));
   }
   folder.commit();
-  std::error_code ignored;
-  fs::remove(log, ignored);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -113,6 +114,29 @@ void read_settings(const Document& document, Plan& plan) {
   plan.memory_origin = document.origin("limits.memory_mb").value_or(document.origin());
 }
 
+constexpr std::size_t kBeyondCount = std::numeric_limits<std::size_t>::max();
+
+std::size_t product(std::size_t a, std::size_t b) {
+  std::size_t result = 0;
+  return __builtin_mul_overflow(a, b, &result) ? kBeyondCount : result;
+}
+
+std::size_t sum(std::size_t a, std::size_t b) {
+  std::size_t result = 0;
+  return __builtin_add_overflow(a, b, &result) ? kBeyondCount : result;
+}
+
+/// Of all pipelines with each point of their grids.
+std::size_t count_variants(const Plan& plan) {
+  std::size_t variants = 0;
+  for (const PlannedPipeline& pipeline : plan.pipelines) {
+    std::size_t points = 1;
+    for (const GridAxis& axis : pipeline.grid) points = product(points, axis.values.size());
+    variants = sum(variants, points);
+  }
+  return variants;
+}
+
 }  // namespace
 
 Plan load_plan(const std::filesystem::path& file, const std::filesystem::path& share_folder,
@@ -127,21 +151,33 @@ Plan load_plan(const std::filesystem::path& file, const std::filesystem::path& s
   plan.slurm = read_slurm(document);
   plan.recordings = read_recordings(document, plan.file.parent_path(), simulation_error);
   plan.pipelines = read_pipelines(document, plan.file.parent_path(), share_folder);
+  if (count_runs(plan) > kMostRuns) {
+    const char* key = document.has("grid") ? "grid" : "pipelines";
+    throw plan_error(*document.origin(key),
+                     fmt::format("at most {} runs (make it several plans)", kMostRuns),
+                     describe(plan));
+  }
   return plan;
 }
 
 std::string describe(const Plan& plan) {
-  std::size_t variants = 0;
-  for (const PlannedPipeline& pipeline : plan.pipelines)
-    variants += grid_points(pipeline.grid).size();
+  const std::size_t variants = count_variants(plan);
   const std::size_t recordings = plan.recordings.size();
-  const std::size_t runs = recordings * variants * static_cast<std::size_t>(plan.repeats);
-  const auto noun = [](std::size_t n, const char* word) {
-    return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s");
+  const std::size_t runs = count_runs(plan);
+  const auto number = [](std::size_t n) {
+    return n == kBeyondCount ? "more than can be counted" : fmt::format("{}", n);
+  };
+  const auto noun = [&](std::size_t n, const char* word) {
+    return fmt::format("{} {}{}", number(n), word, n == 1 ? "" : "s");
   };
   return fmt::format("{} x {} ({} with the grid) x {} = {}", noun(recordings, "recording"),
-                     noun(plan.pipelines.size(), "pipeline"), variants,
+                     noun(plan.pipelines.size(), "pipeline"), number(variants),
                      noun(static_cast<std::size_t>(plan.repeats), "repeat"), noun(runs, "run"));
+}
+
+std::size_t count_runs(const Plan& plan) {
+  return product(product(plan.recordings.size(), count_variants(plan)),
+                 static_cast<std::size_t>(plan.repeats));
 }
 
 std::vector<std::vector<std::string>> grid_points(const std::vector<GridAxis>& grid) {

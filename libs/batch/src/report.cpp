@@ -244,7 +244,7 @@ std::string batch_page(const ReportData& data, const std::filesystem::path& temp
   page.set("name", data.plan.file.stem().string());
   page.set("date", pipeline::utc_now().substr(0, 10));
   page.set("style", read_all(templates, {"run.css", "batch.css"}));
-  page.set("script", read_all(templates, {"batch_tables.js", "batch_charts.js"}));
+  page.set("script", read_all(templates, {"csv.js", "batch_tables.js", "batch_charts.js"}));
   page.set("verdict", verdict(data, counts));
   if (data.plan.description.empty()) {
     page.set("description", false);

@@ -8,6 +8,7 @@
 
 #include "traverse/batch/metric.hpp"
 #include "traverse/files/atomic_file.hpp"
+#include "traverse/files/csv.hpp"
 #include "traverse/files/numbers.hpp"
 
 namespace traverse::batch {
@@ -15,14 +16,6 @@ namespace traverse::batch {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// A cell as RFC 4180 wants it.
-std::string in_csv(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
 
 /// The metrics that any run has, in their fixed order.
 std::vector<std::string> present_metrics(const Results& results) {
@@ -97,18 +90,19 @@ void write_csv(const std::filesystem::path& file, const Results& results) {
   for (const Job& job : results.jobs()) {
     const Completion* completion = results.find(job);
     if (completion == nullptr) continue;
-    text += fmt::format("{},{},{},{},{},{},{},{}", in_csv(job.recording), in_csv(job.pipeline),
-                        in_csv(fmt::format("{}", fmt::join(job.settings, "; "))), job.repeat,
-                        name_of(completion->outcome), in_csv(completion->reason), job.id,
-                        completion->trajectory_sha256);
+    text += fmt::format(
+        "{},{},{},{},{},{},{},{}", files::csv_cell(job.recording), files::csv_cell(job.pipeline),
+        files::csv_cell(fmt::format("{}", fmt::join(job.settings, "; "))), job.repeat,
+        name_of(completion->outcome), files::csv_cell(completion->reason), files::csv_cell(job.id),
+        files::csv_cell(completion->trajectory_sha256));
     const std::map<std::string_view, double> values(completion->metrics.begin(),
                                                     completion->metrics.end());
     for (const std::string& metric : metrics) {
       const auto value = values.find(metric);
       text += "," + (value == values.end() ? "" : files::to_text(value->second));
     }
-    text += fmt::format(",{},{},{}\n", completion->attempts, in_csv(completion->host),
-                        completion->started_utc);
+    text += fmt::format(",{},{},{}\n", completion->attempts, files::csv_cell(completion->host),
+                        files::csv_cell(completion->started_utc));
   }
   files::write_text(file, text);
 }

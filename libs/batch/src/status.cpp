@@ -112,7 +112,8 @@ bool cancel_local(const BatchFolder& folder) {
     const auto words = files::split_words(owner);
     if (words.size() < 4 || words[3] != host_name()) continue;
     const auto pid = files::parse_integer(words[1]);
-    asked |= pid && ::kill(static_cast<pid_t>(*pid), SIGINT) == 0;
+    // Not SIGINT, which the background jobs of a script ignore.
+    asked |= pid && ::kill(static_cast<pid_t>(*pid), SIGTERM) == 0;
   }
   return asked;
 }

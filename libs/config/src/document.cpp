@@ -6,6 +6,7 @@
 #include "traverse/files/text_file.hpp"
 
 #include "tree.hpp"
+#include "yaml_limits.hpp"
 
 namespace traverse::config {
 
@@ -15,13 +16,13 @@ using Entry = Document::Tree::Entry;
 
 namespace {
 
-constexpr int kDeepestNesting = 32;
-
-Entry build(const YAML::Node& node, std::string key, const std::string& origin, int key_line,
-            int depth) {
-  const auto place = Place::line(static_cast<std::size_t>(key_line));
-  if (depth > kDeepestNesting) throw InputError(origin, place, "less deeply nested keys", "more");
-  Entry entry{std::move(key), origin, key_line, node, {}, node.IsMap()};
+Entry build(const YAML::Node& node, std::string key, const std::string& origin, int key_line) {
+  Entry entry;
+  entry.key = std::move(key);
+  entry.origin = origin;
+  entry.line = key_line;
+  entry.scalar_or_sequence = node;
+  entry.is_mapping = node.IsMap();
   if (!entry.is_mapping) return entry;
   for (const auto& item : node) {
     const int line = item.first.Mark().line + 1;
@@ -31,23 +32,18 @@ Entry build(const YAML::Node& node, std::string key, const std::string& origin, 
     if (entry.find(name) != nullptr) {
       throw InputError(origin, item_place, "each key once", files::in_quotes(name) + " again");
     }
-    entry.children.push_back(build(item.second, name, origin, line, depth + 1));
+    entry.add(build(item.second, name, origin, line));
   }
   return entry;
 }
 
 Entry parse_mapping(const std::string& yaml, const std::string& origin) {
-  YAML::Node node;
-  try {
-    node = YAML::Load(yaml);
-  } catch (const YAML::ParserException& error) {
-    throw InputError(origin, Place::line(static_cast<std::size_t>(error.mark.line + 1)),
-                     "valid YAML", error.msg);
-  }
+  check_yaml(yaml, origin);
+  YAML::Node node = YAML::Load(yaml);
   if (node.IsNull()) node = YAML::Node(YAML::NodeType::Map);  // an empty file sets nothing
   if (!node.IsMap())
     throw InputError(origin, Place::line(1), "a mapping of keys to values", "none");
-  return build(node, "", origin, 1, 0);
+  return build(node, "", origin, 1);
 }
 
 Place place_of(const Entry& entry) {
@@ -69,7 +65,7 @@ void overlay_entry(Entry& base, const Entry& top) {
     if (Entry* existing = base.find(child.key)) {
       overlay_entry(*existing, child);
     } else {
-      base.children.push_back(child);
+      base.add(child);
     }
   }
 }
@@ -106,10 +102,23 @@ void collect_leaves(const Entry& mapping, const std::string& prefix, std::vector
 }  // namespace
 
 const Entry* Document::Tree::Entry::find(std::string_view name) const {
+  if (!places.empty()) {
+    const auto found = places.find(name);
+    return found == places.end() ? nullptr : &children[found->second];
+  }
   for (const Entry& child : children) {
     if (child.key == name) return &child;
   }
   return nullptr;
+}
+
+void Document::Tree::Entry::add(Entry child) {
+  constexpr std::size_t kFew = 16;  // are found sooner without an index
+  children.push_back(std::move(child));
+  if (children.size() == kFew) {
+    for (std::size_t i = 0; i + 1 < children.size(); ++i) places.emplace(children[i].key, i);
+  }
+  if (children.size() >= kFew) places.emplace(children.back().key, children.size() - 1);
 }
 
 Entry* Document::Tree::Entry::find(std::string_view name) {
@@ -209,12 +218,11 @@ std::vector<Document> Document::items(std::string_view top_level_key,
     const Place place = Place::line(static_cast<std::size_t>(line));
     Document document;
     if (item.IsScalar()) {
-      document.tree_->root.children.push_back(
-          {std::string(short_key), entry->origin, line, item, {}, false});
+      document.tree_->root.add(build(item, std::string(short_key), entry->origin, line));
       document.tree_->root.origin = entry->origin;
       document.tree_->root.line = line;
     } else if (item.IsMap()) {
-      document.tree_->root = build(item, "", entry->origin, line, 0);
+      document.tree_->root = build(item, "", entry->origin, line);
     } else {
       throw InputError(entry->origin, place, "a text or a mapping", "neither");
     }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -46,7 +47,7 @@ class Reader : public Binder {
     const Entry* entry = take(key);
     if (entry == nullptr) return;
     const auto parsed = files::parse_double(scalar_of(*entry));
-    if (!parsed || !(*parsed >= range.least && *parsed <= range.most)) {
+    if (!parsed || !std::isfinite(*parsed) || *parsed < range.least || *parsed > range.most) {
       throw wrong(*entry, "a number" + range_suffix(range));
     }
     value = *parsed;
@@ -85,7 +86,7 @@ class Reader : public Binder {
     std::vector<double> parsed;
     for (const auto& item : entry->scalar_or_sequence) {
       const auto number = item.IsScalar() ? files::parse_double(item.Scalar()) : std::nullopt;
-      if (!number) throw wrong(*entry, "a list of numbers only");
+      if (!number || !std::isfinite(*number)) throw wrong(*entry, "a list of numbers only");
       parsed.push_back(*number);
     }
     value = std::move(parsed);
@@ -104,7 +105,7 @@ class Reader : public Binder {
 
   void group(std::string_view key, std::string_view,
              const std::function<void(Binder&)>& body) override {
-    static const Entry kEmpty{{}, {}, 0, {}, {}, true};
+    static const Entry kEmpty{{}, {}, 0, {}, {}, {}, true};
     const Entry* entry = take(key);
     if (entry != nullptr && !entry->is_mapping) throw wrong(*entry, "a mapping");
     Reader reader(entry != nullptr ? *entry : kEmpty, path(key) + ".");

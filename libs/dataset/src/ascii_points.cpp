@@ -20,6 +20,17 @@ std::string_view next_point_line(FileCursor& file, std::size_t read, std::size_t
   }
 }
 
+/// Without a list of them, which would outweigh the line.
+std::size_t count_words(std::string_view line) {
+  constexpr std::string_view kBlanks = " \t\r";
+  std::size_t words = 0;
+  for (std::size_t at = line.find_first_not_of(kBlanks); at != std::string_view::npos;
+       at = line.find_first_not_of(kBlanks, line.find_first_of(kBlanks, at))) {
+    ++words;
+  }
+  return words;
+}
+
 }  // namespace
 
 void read_ascii_points(FileCursor& file, std::size_t points,
@@ -29,10 +40,10 @@ void read_ascii_points(FileCursor& file, std::size_t points,
 
   for (std::size_t i = 0; i < points; ++i) {
     const std::string_view line = next_point_line(file, i, points);
-    const std::vector<std::string_view> words = files::split_words(line);
+    const std::vector<std::string_view> words = files::split_words(line, words_a_line + 1);
     if (words.size() != words_a_line) {
       throw file.error(fmt::format("{} values a point", words_a_line),
-                       fmt::format("{}", words.size()));
+                       fmt::format("{}", count_words(line)));
     }
     std::size_t word = 0;
     for (const AsciiColumn& column : columns) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,15 +35,44 @@ constexpr const char* kImu = "imu";
 constexpr const char* kGnss = "gnss";
 constexpr const char* kWheels = "wheels";
 
-struct CsvRow {
-  Stamp stamp;
-  std::vector<double> values;
-  std::string place;
+/// The rows that can be used, side by side: one allocation a row would outweigh its numbers.
+class CsvRows {
+ public:
+  CsvRows(std::string file, std::size_t columns) : file_(std::move(file)), columns_(columns) {}
+
+  void add(Stamp stamp, std::span<const double> values, std::size_t line) {
+    stamps_.push_back(stamp);
+    values_.insert(values_.end(), values.begin(), values.end());
+    lines_.push_back(line);
+  }
+  std::size_t size() const { return stamps_.size(); }
+  bool empty() const { return stamps_.empty(); }
+  std::vector<Stamp>& stamps() { return stamps_; }
+  Stamp stamp(std::size_t i) const { return stamps_[i]; }
+  std::span<const double> values(std::size_t i) const {
+    return std::span(values_).subspan(i * columns_, columns_);
+  }
+  Eigen::Vector3d vector(std::size_t i) const {
+    const auto row = values(i);
+    return {row[0], row[1], row[2]};
+  }
+  std::string place(std::size_t i) const { return place_of_line(lines_[i]); }
+  std::string place_of_line(std::size_t line) const {
+    return fmt::format("{}, line {}", file_, line);
+  }
+
+ private:
+  std::string file_;
+  std::size_t columns_;
+  std::vector<Stamp> stamps_;
+  std::vector<double> values_;  ///< row after row
+  std::vector<std::size_t> lines_;
 };
 
 /// The rows of the columns that are stated; those that cannot be used go to `records`.
-std::vector<CsvRow> read_rows(const fs::path& file, const CsvColumns& stated, double time_unit_s,
-                              std::vector<ListedRecord>& records) {
+CsvRows read_rows(const fs::path& file, const CsvColumns& stated, double time_unit_s,
+                  ListedRecords& records) {
+  constexpr double kLatest = 9e9;  // seconds that whole nanoseconds can hold
   files::LineReader reader(file);
   if (!reader.next()) throw reader.error("a header line", "an empty file");
   std::vector<std::string> header;
@@ -50,31 +80,37 @@ std::vector<CsvRow> read_rows(const fs::path& file, const CsvColumns& stated, do
   const auto column_of = [&](std::string_view name) {
     const auto found = std::find(header.begin(), header.end(), name);
     if (found == header.end()) {
-      throw reader.error("a column " + files::in_quotes(name), reader.line());
+      constexpr std::size_t kShown = 500;
+      throw reader.error("a column " + files::in_quotes(name), reader.line().substr(0, kShown));
     }
     return static_cast<std::size_t>(found - header.begin());
   };
   std::vector<std::size_t> columns{column_of(stated.time)};
   for (const auto name : files::split_words(stated.columns)) columns.push_back(column_of(name));
 
-  std::vector<CsvRow> rows;
+  CsvRows rows(file.filename().string(), columns.size() - 1);
+  std::vector<double> values;
   while (reader.next()) {
-    const std::string place = fmt::format("{}, line {}", file.filename().string(), reader.number());
     const auto cells = files::split_cells(reader.line(), ',');
-    CsvRow row{{}, {}, place};
     std::string fault;
+    Stamp stamp;
+    values.clear();
     if (cells.size() != header.size())
       fault = "CSV line with another number of cells than its header";
     for (std::size_t k = 0; k < columns.size() && fault.empty(); ++k) {
       const auto value = files::parse_double(cells[columns[k]]);
       if (!value || !std::isfinite(*value)) fault = "CSV line with a cell that is no finite number";
-      if (fault.empty() && k == 0) row.stamp = Stamp::from_seconds(*value * time_unit_s);
-      if (fault.empty() && k > 0) row.values.push_back(*value);
+      if (fault.empty() && k == 0) {
+        const double seconds = *value * time_unit_s;
+        if (!(std::abs(seconds) <= kLatest)) fault = "CSV line with no such time";
+        stamp = Stamp::from_seconds(seconds);
+      }
+      if (fault.empty() && k > 0) values.push_back(*value);
     }
     if (fault.empty()) {
-      rows.push_back(std::move(row));
+      rows.add(stamp, values, reader.number());
     } else {
-      records.push_back({std::nullopt, fault, place});
+      records.skip(fault, rows.place_of_line(reader.number()));
     }
   }
   return rows;
@@ -95,45 +131,50 @@ class CsvRecording {
     const auto gyro = rows("csv.gyro", csv_.gyro, 3, 3);
     const auto accelerometer = rows("csv.accelerometer", csv_.accelerometer, 3, 3);
     std::size_t k = 0;
-    for (const CsvRow& row : gyro) {
-      while (k + 1 < accelerometer.size() && accelerometer[k + 1].stamp <= row.stamp) ++k;
-      const auto force = interpolated(accelerometer, k, row.stamp);
+    for (std::size_t i = 0; i < gyro.size(); ++i) {
+      const Stamp stamp = gyro.stamp(i);
+      while (k + 1 < accelerometer.size() && accelerometer.stamp(k + 1) <= stamp) ++k;
+      const auto force = interpolated(accelerometer, k, stamp);
       if (!force) {
-        records.push_back({std::nullopt, "gyro without accelerometer within 50 ms", row.place});
+        records.skip("gyro without accelerometer within 50 ms", gyro.place(i));
         continue;
       }
-      add(sensors::ImuSample{row.stamp, kImu, unit * vector_of(row), *force}, row.place);
+      records.add(sensors::ImuSample{stamp, kImu, unit * gyro.vector(i), *force}, gyro.place(i));
     }
   }
 
   void read_gnss() {
     if (csv_.gnss.file.empty()) return;
-    for (const CsvRow& row : rows("csv.gnss", csv_.gnss, 3, 4)) {
-      if (std::abs(row.values[0]) > 90 || std::abs(row.values[1]) > 360) {
-        records.push_back({std::nullopt, "GNSS line with no such place", row.place});
+    const auto fixes = rows("csv.gnss", csv_.gnss, 3, 4);
+    for (std::size_t i = 0; i < fixes.size(); ++i) {
+      const auto values = fixes.values(i);
+      if (std::abs(values[0]) > 90 || std::abs(values[1]) > 360) {
+        records.skip("GNSS line with no such place", fixes.place(i));
         continue;
       }
       sensors::GnssFix fix;
-      fix.stamp = row.stamp;
+      fix.stamp = fixes.stamp(i);
       fix.sensor = kGnss;
-      fix.latitude_deg = row.values[0];
-      fix.longitude_deg = row.values[1];
-      fix.altitude_m = row.values[2];
-      if (row.values.size() > 3) fix.heading_deg = row.values[3];
-      add(fix, row.place);
+      fix.latitude_deg = values[0];
+      fix.longitude_deg = values[1];
+      fix.altitude_m = values[2];
+      if (values.size() > 3) fix.heading_deg = values[3];
+      records.add(fix, fixes.place(i));
     }
   }
 
   void read_wheels() {
     if (csv_.wheels.file.empty()) return;
-    for (const CsvRow& row : rows("csv.wheels", csv_.wheels, 1, 8)) {
+    const auto speeds = rows("csv.wheels", csv_.wheels, 1, 8);
+    for (std::size_t i = 0; i < speeds.size(); ++i) {
+      const auto values = speeds.values(i);
       double sum = 0;
-      for (const double speed : row.values) sum += speed;
+      for (const double speed : values) sum += speed;
       sensors::WheelOdometry reading;
-      reading.stamp = row.stamp;
+      reading.stamp = speeds.stamp(i);
       reading.sensor = kWheels;
-      reading.velocity = {sum / static_cast<double>(row.values.size()), 0, 0};
-      add(reading, row.place);
+      reading.velocity = {sum / static_cast<double>(values.size()), 0, 0};
+      records.add(reading, speeds.place(i));
     }
   }
 
@@ -145,18 +186,19 @@ class CsvRecording {
     reference.file = statements_.find_file("csv.reference.file", csv_.reference.file);
     reference.description = "earth-centred poses in the tangent plane at the first one";
     reference.north_map = Eigen::Vector3d::UnitY();
-    const geodesy::LocalTangentPlane plane(geodesy::from_ecef(vector_of(poses.front())));
+    const geodesy::LocalTangentPlane plane(geodesy::from_ecef(poses.vector(0)));
     const Eigen::Matrix3d R_body_axes = stated_rotation(
         statements_, "csv.reference.roll_pitch_yaw_deg", csv_.reference_roll_pitch_yaw_deg);
-    for (const CsvRow& row : poses) {
-      const Eigen::Quaterniond q(row.values[3], row.values[4], row.values[5], row.values[6]);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const auto values = poses.values(i);
+      const Eigen::Quaterniond q(values[3], values[4], values[5], values[6]);
       if (q.norm() < 0.5) continue;
       const geometry::Pose3 pose{
           plane.R_enu_ecef() * q.normalized().toRotationMatrix() * R_body_axes.transpose(),
-          plane.ecef_to_enu(vector_of(row))};
+          plane.ecef_to_enu(poses.vector(i))};
       const bool is_later =
-          reference.T_map_body.empty() || reference.T_map_body.stamps().back() < row.stamp;
-      if (is_later) reference.T_map_body.push_back(row.stamp, pose);
+          reference.T_map_body.empty() || reference.T_map_body.stamps().back() < poses.stamp(i);
+      if (is_later) reference.T_map_body.push_back(poses.stamp(i), pose);
     }
     facts.push_back({"reference", reference.file.string(), reason("csv.reference.file")});
     facts.push_back({"reference frame", reference.description, reason("csv.reference.columns")});
@@ -165,12 +207,12 @@ class CsvRecording {
 
   std::string reason(const char* key) const { return statements_.reason(key, "default"); }
 
-  std::vector<ListedRecord> records;
+  ListedRecords records;
   std::vector<Fact> facts;
 
  private:
-  std::vector<CsvRow> rows(const std::string& key, const CsvColumns& stated, std::size_t least,
-                           std::size_t most) {
+  CsvRows rows(const std::string& key, const CsvColumns& stated, std::size_t least,
+               std::size_t most) {
     const std::size_t count = files::split_words(stated.columns).size();
     if (count < least || count > most) {
       throw statements_.error(key + ".columns",
@@ -184,16 +226,13 @@ class CsvRecording {
     return rows;
   }
 
-  void regularise(const std::string& key, double period_s, std::vector<CsvRow>& rows) {
-    std::vector<Stamp> stamps;
-    for (const CsvRow& row : rows) stamps.push_back(row.stamp);
-    const auto fit = put_on_clock(stamps, period_s);
+  void regularise(const std::string& key, double period_s, CsvRows& rows) {
+    const auto fit = put_on_clock(rows.stamps(), period_s);
     const std::string why = statements_.reason(key + ".period_s", "default");
     if (!fit) {
       facts.push_back({key + ", stamps", "as they are: they do not keep the period", why});
       return;
     }
-    for (std::size_t k = 0; k < rows.size(); ++k) rows[k].stamp = stamps[k];
     facts.push_back(
         {key + ", stamps",
          fmt::format("put on a clock of {:.7f} s, moved by {:.1f} ms rms and {:.1f} ms "
@@ -202,29 +241,21 @@ class CsvRecording {
          why});
   }
 
-  static Eigen::Vector3d vector_of(const CsvRow& row) {
-    return {row.values[0], row.values[1], row.values[2]};
-  }
-
   /// Between the rows k and k + 1; nothing if they are too far from `stamp`.
-  static std::optional<Eigen::Vector3d> interpolated(const std::vector<CsvRow>& rows, std::size_t k,
+  static std::optional<Eigen::Vector3d> interpolated(const CsvRows& rows, std::size_t k,
                                                      Stamp stamp) {
     constexpr double kFar = 0.05;
     if (rows.empty()) return std::nullopt;
-    if (rows[k].stamp == stamp) return vector_of(rows[k]);
-    const bool is_between = k + 1 < rows.size() && rows[k].stamp < stamp;
-    const double span =
-        is_between ? geometry::seconds_between(rows[k].stamp, rows[k + 1].stamp) : 0;
+    const Stamp before = rows.stamp(k);
+    if (before == stamp) return rows.vector(k);
+    const bool is_between = k + 1 < rows.size() && before < stamp;
+    const double span = is_between ? geometry::seconds_between(before, rows.stamp(k + 1)) : 0;
     if (is_between && span < kFar) {
-      const double share = geometry::seconds_between(rows[k].stamp, stamp) / span;
-      return Eigen::Vector3d((1 - share) * vector_of(rows[k]) + share * vector_of(rows[k + 1]));
+      const double share = geometry::seconds_between(before, stamp) / span;
+      return Eigen::Vector3d((1 - share) * rows.vector(k) + share * rows.vector(k + 1));
     }
-    if (std::abs(geometry::seconds_between(rows[k].stamp, stamp)) < kFar) return vector_of(rows[k]);
+    if (std::abs(geometry::seconds_between(before, stamp)) < kFar) return rows.vector(k);
     return std::nullopt;
-  }
-
-  void add(sensors::Measurement measurement, const std::string& place) {
-    records.push_back({std::move(measurement), "", place});
   }
 
   fs::path folder_;

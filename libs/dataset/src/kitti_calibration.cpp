@@ -24,9 +24,14 @@ namespace {
 class CalibrationTable {
  public:
   explicit CalibrationTable(std::filesystem::path file) : file_(std::move(file)) {
+    constexpr std::size_t kMostKeys = 1000;
+    constexpr std::size_t kMostWords = 100;  // more numbers than any key has, and itself
     files::LineReader reader(file_);
     while (reader.next()) {
-      const std::vector<std::string_view> words = files::split_words(reader.line());
+      if (values_.size() == kMostKeys) {
+        throw reader.error(fmt::format("a calibration of at most {} keys", kMostKeys), "more");
+      }
+      const std::vector<std::string_view> words = files::split_words(reader.line(), kMostWords);
       std::string_view key = words.front();
       if (key.ends_with(':')) key.remove_suffix(1);
       std::vector<double>& values = values_[std::string(key)];

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "traverse/dataset/recording_writer.hpp"
-#include "traverse/files/atomic_file.hpp"
 #include "traverse/files/numbers.hpp"
 
+#include "recording_files.hpp"
 #include "sidecar.hpp"
 
 namespace traverse::dataset {
@@ -25,8 +25,8 @@ std::string text_of(const Eigen::Vector3d& v) {
 class NavigationLogWriter final : public RecordingWriter {
  public:
   NavigationLogWriter(const fs::path& file, const RecordingInfo& info,
-                      const std::optional<Reference>& reference)
-      : file_(file), output_(file), info_(info) {
+                      const std::optional<Reference>& reference, const FilesThere& there)
+      : files_(RecordingFiles::beside(file, there)), output_(files_.add_data()), info_(info) {
     output_.stream() << "# IMU t gx gy gz ax ay az; ODOM t left right; GNSS t lat lon alt heading "
                         "heading_valid\n";
     if (reference) sidecar_.reference = reference->T_map_body;
@@ -36,17 +36,16 @@ class NavigationLogWriter final : public RecordingWriter {
     std::visit([this](const auto& held) { write(held); }, measurement);
   }
 
+  void add_file(const std::string& name, const std::string& text) override {
+    files_.write(name, text);
+  }
+
   void commit() override {
     sidecar_.name = info_.name;
     sidecar_.body_frame = info_.rig.body_frame;
     sidecar_.vehicle = vehicle_statements_of(info_.rig);
     sidecar_.log = {AngularUnit::kRadians, PulseCount::kCumulative, 1};
-    const auto beside = [&](const char* extension) {
-      return fs::path(file_).replace_extension(extension);
-    };
-    write_sidecar(sidecar_,
-                  {beside(".traverse.yaml"), beside(".reference.tum"), beside(".calib.txt")});
-    output_.commit();
+    commit_with_sidecar(sidecar_, files_);
   }
 
  private:
@@ -92,8 +91,8 @@ class NavigationLogWriter final : public RecordingWriter {
     return true;
   }
 
-  fs::path file_;
-  files::AtomicFile output_;
+  RecordingFiles files_;
+  files::AtomicFile& output_;
   const RecordingInfo& info_;
   Sidecar sidecar_;
 };
@@ -102,8 +101,9 @@ class NavigationLogWriter final : public RecordingWriter {
 
 std::unique_ptr<RecordingWriter> write_navigation_log(const fs::path& file,
                                                       const RecordingInfo& info,
-                                                      const std::optional<Reference>& reference) {
-  return std::make_unique<NavigationLogWriter>(file, info, reference);
+                                                      const std::optional<Reference>& reference,
+                                                      const FilesThere& there) {
+  return std::make_unique<NavigationLogWriter>(file, info, reference, there);
 }
 
 }  // namespace traverse::dataset

@@ -33,9 +33,13 @@ const std::vector<std::string>& standard_names() {
 
 /// "lat:   latitude of the oxts-unit (deg)"
 std::vector<std::string> read_names(const fs::path& dataformat) {
+  constexpr std::size_t kMostNames = 1000;
   std::vector<std::string> names;
   files::LineReader reader(dataformat);
   while (reader.next()) {
+    if (names.size() == kMostNames) {
+      throw reader.error(fmt::format("at most {} values", kMostNames), "more");
+    }
     const std::size_t colon = reader.line().find(':');
     if (colon == std::string::npos) throw reader.error("NAME: MEANING");
     names.push_back(reader.line().substr(0, colon));

@@ -4,9 +4,12 @@
 #include <limits>
 #include <lzf.h>
 #include <map>
+#include <memory>
+#include <span>
 
 #include <fmt/format.h>
 
+#include "traverse/files/binary_file.hpp"
 #include "traverse/files/numbers.hpp"
 
 #include "ascii_points.hpp"
@@ -52,7 +55,18 @@ std::size_t parse_count(const FileCursor& file, std::string_view word, std::size
 }
 
 constexpr std::size_t kMostPoints = std::size_t{1} << 40;
+constexpr std::size_t kMostFields = std::size_t{1} << 12;
 constexpr std::size_t kMostValues = std::size_t{1} << 16;  // of one field in one point
+
+/// WIDTH x HEIGHT. \throws files::InputError if that is more than a file can hold.
+std::size_t product_of(const FileCursor& file, std::size_t width, std::size_t height) {
+  if (height > 0 && width > kMostPoints / height) {
+    throw InputError(file.path(), Place::key("WIDTH"),
+                     fmt::format("WIDTH x HEIGHT up to {}", kMostPoints),
+                     fmt::format("{} x {}", width, height));
+  }
+  return width * height;
+}
 
 /// One value a field on this line: SIZE, TYPE, COUNT.
 void for_each_field(const FileCursor& file, PcdHeader& header,
@@ -71,9 +85,12 @@ PcdHeader read_pcd_header(FileCursor& file) {
   std::size_t height = 1;
   bool has_points = false;
   while (const auto line = file.next_line()) {
-    const std::vector<std::string_view> words = files::split_words(*line);
+    const std::vector<std::string_view> words = files::split_words(*line, kMostFields + 2);
     if (words.empty() || words.front().front() == '#') continue;
     const std::string_view key = words.front();
+    if (words.size() > kMostFields + 1) {
+      throw file.error(fmt::format("at most {} fields", kMostFields), "more");
+    }
     if (words.size() < 2) throw file.error("a key and its values", files::in_quotes(*line));
     if (key == "FIELDS" || key == "COLUMNS") {  // COLUMNS: before version 0.6
       header.fields.clear();
@@ -103,7 +120,7 @@ PcdHeader read_pcd_header(FileCursor& file) {
     } else if (key == "DATA") {
       header.data = words[1];
       if (header.fields.empty()) throw file.error("FIELDS before DATA", "none");
-      if (!has_points) header.points = width * height;
+      if (!has_points) header.points = product_of(file, width, height);
       return header;
     } else if (key != "VERSION" && key != "VIEWPOINT") {
       throw file.error("a key of the PCD header", files::in_quotes(key));
@@ -137,17 +154,37 @@ void check_size(const FileCursor& file, std::size_t points, std::size_t point_by
   }
 }
 
+/// What LZF can make of a byte at most: a reference of three bytes stands for 264.
+constexpr std::uint64_t kMostLzfRatio = 88;
+
+/// Bytes of which only those that were written take memory.
+struct Decompressed {
+  std::unique_ptr<std::byte[]> bytes;
+  std::size_t size = 0;
+  std::span<const std::byte> view() const { return {bytes.get(), size}; }
+};
+
 /// The values of all points, field after field.
-std::vector<std::byte> decompress(FileCursor& file, const PcdHeader& header) {
+Decompressed decompress(FileCursor& file, const PcdHeader& header) {
   std::uint32_t packed_size = 0;
   std::uint32_t full_size = 0;
   std::memcpy(&packed_size, file.take(sizeof packed_size).data(), sizeof packed_size);
   std::memcpy(&full_size, file.take(sizeof full_size).data(), sizeof full_size);
+  if (full_size > files::kMostBytesAtOnce) {
+    throw InputError(file.path(), Place::whole_file(),
+                     fmt::format("at most {} bytes after decompression", files::kMostBytesAtOnce),
+                     fmt::format("a header that states {}", full_size));
+  }
   check_size(file, header.points, header.point_bytes(), full_size);
   const std::span<const std::byte> packed = file.take(packed_size);
-  std::vector<std::byte> full(full_size);
+  if (full_size > kMostLzfRatio * packed_size) {
+    throw InputError(file.path(), Place::whole_file(),
+                     fmt::format("compressed data for {} bytes", full_size),
+                     fmt::format("{} bytes, too few", packed_size));
+  }
+  Decompressed full{std::make_unique_for_overwrite<std::byte[]>(full_size), full_size};
   if (full_size > 0 &&
-      lzf_decompress(packed.data(), packed_size, full.data(), full_size) != full_size) {
+      lzf_decompress(packed.data(), packed_size, full.bytes.get(), full_size) != full_size) {
     throw InputError(file.path(), Place::whole_file(),
                      fmt::format("{} bytes after decompression", full_size),
                      "damaged compressed data");
@@ -195,8 +232,10 @@ PointCloud decode_fields(const FileCursor& file, const PcdHeader& header,
 }
 
 PointCloud read_ascii(FileCursor& file, const PcdHeader& header) {
-  constexpr std::size_t kLeastBytesAPoint = 2;  // a digit and the line's end
-  check_size(file, header.points, kLeastBytesAPoint, file.rest().size() + 1);
+  std::size_t words = 0;
+  for (const PcdField& field : header.fields) words += field.count;
+  constexpr std::size_t kLeastBytesAWord = 2;  // a digit and a blank or the line's end
+  check_size(file, header.points, kLeastBytesAWord * words, file.rest().size() + 1);
   std::vector<FieldValues> values;
   values.reserve(header.fields.size());
   std::vector<AsciiColumn> columns;
@@ -223,8 +262,8 @@ PointCloud read_pcd(FileCursor& file) {
     return decode_fields(file, header, file.rest(), interleaved_layout(header));
   }
   if (header.data == "binary_compressed") {
-    const std::vector<std::byte> data = decompress(file, header);
-    return decode_fields(file, header, data, field_after_field_layout(header));
+    const Decompressed data = decompress(file, header);
+    return decode_fields(file, header, data.view(), field_after_field_layout(header));
   }
   throw file.error("DATA ascii, binary or binary_compressed", files::in_quotes(header.data));
 }

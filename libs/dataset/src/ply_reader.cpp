@@ -16,6 +16,9 @@ using files::Place;
 
 namespace {
 
+constexpr std::size_t kMostProperties = std::size_t{1} << 12;  // of all elements
+constexpr std::size_t kMostWords = 6;                          // one more than a line can have
+
 enum class PlyFormat { kAscii, kLittleEndian, kBigEndian };
 
 struct PlyProperty {
@@ -89,11 +92,15 @@ PlyProperty parse_property(const FileCursor& file, const std::vector<std::string
 
 PlyHeader read_ply_header(FileCursor& file) {
   PlyHeader header;
-  file.next_line();  // "ply"
+  std::size_t lines = 0;  // of elements and properties
+  file.next_line();       // "ply"
   while (const auto line = file.next_line()) {
-    const std::vector<std::string_view> words = files::split_words(*line);
+    const std::vector<std::string_view> words = files::split_words(*line, kMostWords);
     if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
     if (words[0] == "end_header") return header;
+    if (++lines > kMostProperties) {
+      throw file.error(fmt::format("at most {} elements and properties", kMostProperties), "more");
+    }
     if (words[0] == "format") {
       header.format = parse_format(file, words);
     } else if (words[0] == "element") {
@@ -155,7 +162,8 @@ PointCloud read_points(FileCursor& file, const PlyElement& vertex, PlyFormat for
     throw InputError(file.path(), Place::whole_file(), "points without lists", "a list");
   }
   const bool ascii = format == PlyFormat::kAscii;
-  const std::size_t record = ascii ? 2 : vertex.scalar_bytes();  // ascii: a digit and a line's end
+  // A value in text is at least a digit and a blank or the line's end.
+  const std::size_t record = ascii ? 2 * vertex.properties.size() : vertex.scalar_bytes();
   const std::size_t available = file.rest().size() + (ascii ? 1 : 0);
   if (record == 0 || vertex.count > available / record) {
     throw InputError(file.path(), Place::whole_file(),

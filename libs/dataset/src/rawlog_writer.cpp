@@ -11,11 +11,11 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include "traverse/dataset/recording_writer.hpp"
-#include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/mrpt_io/gz_stream.hpp"
 #include "traverse/mrpt_io/mrpt_values.hpp"
 
+#include "recording_files.hpp"
 #include "scan_completion.hpp"
 #include "sidecar.hpp"
 
@@ -63,7 +63,8 @@ mrpt::obs::CObservationVelodyneScan to_observation(const LidarScan& scan,
   // Ticks from the stamp's own tick, so that times within the sweep are rounded once.
   const mrpt::Clock::time_point stamp = mrpt_io::to_mrpt(scan.stamp);
   for (const float time : derived.time) {
-    const double ticks = std::isnan(time) ? 0 : time * 1e7;
+    constexpr double kFarthest = 1e10;  // ticks that a stamp can be moved by in any case
+    const double ticks = std::isnan(time) ? 0 : std::clamp(time * 1e7, -kFarthest, kFarthest);
     cloud.timestamp.push_back(stamp + mrpt::Clock::duration(std::llround(ticks)));
   }
   return observation;
@@ -148,8 +149,8 @@ class RawlogWriter : public RecordingWriter {
   RawlogWriter(const fs::path& file, const RecordingInfo& info,
                const std::optional<Reference>& reference, const RawlogOptions& options)
       : file_(file),
-        output_(file),
-        stream_(output_.temporary_path(), options.gzip_level),
+        files_(RecordingFiles::beside(file, options.there)),
+        stream_(files_.add_data().temporary_path(), options.gzip_level),
         info_(info) {
     if (!reference) return;
     sidecar_.reference = reference->T_map_body;
@@ -158,6 +159,10 @@ class RawlogWriter : public RecordingWriter {
 
   void add(const sensors::Measurement& measurement) override {
     std::visit([this](const auto& held) { write(held); }, measurement);
+  }
+
+  void add_file(const std::string& name, const std::string& text) override {
+    files_.write(name, text);
   }
 
   void commit() override {
@@ -175,12 +180,7 @@ class RawlogWriter : public RecordingWriter {
     if (const auto* wheels = info_.rig.first(sensors::SensorKind::kWheels)) {
       sidecar_.wheels = *wheels;  // MRPT's odometry has no mounting
     }
-    const auto beside = [&](const char* extension) {
-      return fs::path(file_).replace_extension(extension);
-    };
-    write_sidecar(sidecar_,
-                  {beside(".traverse.yaml"), beside(".reference.tum"), beside(".calib.txt")});
-    output_.commit();
+    commit_with_sidecar(sidecar_, files_);
   }
 
  private:
@@ -230,7 +230,7 @@ class RawlogWriter : public RecordingWriter {
   }
 
   fs::path file_;
-  files::AtomicFile output_;
+  RecordingFiles files_;
   mrpt_io::GzOutput stream_;
   const RecordingInfo& info_;
   Sidecar sidecar_;

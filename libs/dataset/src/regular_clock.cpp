@@ -29,11 +29,13 @@ double phase_of(const std::vector<Stamp>& stamps, double period_s) {
 /// that its own rate need not be exactly what is stated. Nothing if two stamps share a tick.
 std::optional<std::vector<double>> ticks_of(const std::vector<Stamp>& stamps, double period_s) {
   constexpr double kFollow = 0.05;
+  constexpr double kMostTicks = 9e15;  // what a double counts one by one
   std::vector<double> ticks;
   double offset = phase_of(stamps, period_s);
   for (const Stamp stamp : stamps) {
     const double seconds = seconds_between(stamps.front(), stamp) - offset;
     const double tick = std::round(seconds / period_s);
+    if (!(std::abs(tick) < kMostTicks)) return std::nullopt;
     if (!ticks.empty() && tick <= ticks.back()) return std::nullopt;
     offset += kFollow * (seconds - tick * period_s);
     ticks.push_back(tick);

@@ -34,8 +34,8 @@ class ReorderWindow {
   std::optional<Entry> pop(bool flush) {
     if (waiting_.empty()) return std::nullopt;
     const auto first = waiting_.begin();
-    const bool is_due =
-        geometry::seconds_between(first->first, newest_) >= kSpan || waiting_.size() > kMost;
+    const bool is_due = geometry::seconds_between(first->first, newest_) >= kSpan ||
+                        waiting_.size() > kMost || scans_ > kMostScans;
     if (!is_due && !flush) return std::nullopt;
     Entry entry = std::move(first->second);
     waiting_.erase(first);

@@ -9,6 +9,7 @@
 
 #include "cloud_scan.hpp"
 #include "kitti_bin.hpp"
+#include "recording_files.hpp"
 #include "scan_completion.hpp"
 #include "sidecar.hpp"
 
@@ -26,6 +27,7 @@ class ScanFolderWriter : public RecordingWriter {
                    const std::optional<Reference>& reference, const sensors::MountedSensor& lidar,
                    ScanFolderFormat format)
       : folder_(folder),
+        files_(RecordingFiles::within(folder_.temporary_path())),
         scans_(format == ScanFolderFormat::kKitti ? folder_.temporary_path() / "velodyne"
                                                   : folder_.temporary_path()),
         label_(lidar.label),
@@ -57,13 +59,15 @@ class ScanFolderWriter : public RecordingWriter {
     }
   }
 
+  void add_file(const std::string& name, const std::string& text) override {
+    files_.write(name, text);
+  }
+
   void commit() override {
-    files::write_text(folder_.temporary_path() / "times.txt", times_);
+    files_.write("times.txt", times_);
     const bool stores = format_ != ScanFolderFormat::kKitti;
     sidecar_.profile = stored_in_data(profile_, stores && has_rings_, stores && has_times_);
-    const fs::path folder = folder_.temporary_path();
-    write_sidecar(sidecar_,
-                  {folder / "traverse.yaml", folder / "reference.tum", folder / "calib.txt"});
+    commit_with_sidecar(sidecar_, files_);
     folder_.commit();
   }
 
@@ -89,6 +93,7 @@ class ScanFolderWriter : public RecordingWriter {
   }
 
   files::AtomicFolder folder_;
+  RecordingFiles files_;  ///< beside the scans
   fs::path scans_;
   std::string label_;
   sensors::LidarProfile profile_;

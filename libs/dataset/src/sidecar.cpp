@@ -7,15 +7,19 @@
 
 #include "traverse/config/binder.hpp"
 #include "traverse/config/settings.hpp"
-#include "traverse/dataset/trajectory_files.hpp"
-#include "traverse/files/atomic_file.hpp"
+#include "traverse/dataset/trajectory_streams.hpp"
 #include "traverse/files/numbers.hpp"
+
+#include "recording_files.hpp"
 
 namespace traverse::dataset {
 
 namespace {
 
-void write_calibration(const std::filesystem::path& file, const geometry::Pose3& T_camera_lidar) {
+constexpr const char* kReference = "reference.tum";
+constexpr const char* kCalibration = "calib.txt";
+
+std::string calibration_text(const geometry::Pose3& T_camera_lidar) {
   std::string line = "Tr:";
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
@@ -23,19 +27,19 @@ void write_calibration(const std::filesystem::path& file, const geometry::Pose3&
     }
     line += " " + files::to_text(T_camera_lidar.translation(row));
   }
-  files::write_text(file, line + "\n");
+  return line + "\n";
 }
 
 }  // namespace
 
-void write_sidecar(const Sidecar& sidecar, const SidecarFiles& files) {
+void commit_with_sidecar(const Sidecar& sidecar, RecordingFiles& files) {
   Sidecar values = sidecar;  // a Binder binds variables, also to list them
-  std::string reference_file = files.reference.filename().string();
+  std::string reference_file = files.full_name(kReference);
   std::string reference_format = "tum";
   std::string reference_frame = "body";
   const Eigen::Vector3d north = values.north_map.value_or(Eigen::Vector3d::UnitX());
   double north_deg = std::atan2(north.y(), north.x()) * 180 / std::numbers::pi;
-  std::string calibration = files.calibration.filename().string();
+  std::string calibration = files.full_name(kCalibration);
   const std::string yaml = config::to_yaml(
       [&](config::Binder& b) {
         b.text("name", values.name, "");
@@ -75,9 +79,11 @@ void write_sidecar(const Sidecar& sidecar, const SidecarFiles& files) {
         }
       },
       false);
-  if (sidecar.reference) write_tum(files.reference, *sidecar.reference);
-  if (sidecar.T_camera_lidar) write_calibration(files.calibration, *sidecar.T_camera_lidar);
-  files::write_text(files.statements, "# Written by traverse beside the recording.\n" + yaml);
+  if (sidecar.reference) write_tum(files.add(kReference).stream(), *sidecar.reference);
+  if (sidecar.T_camera_lidar) {
+    files.write(kCalibration, calibration_text(*sidecar.T_camera_lidar));
+  }
+  files.commit(yaml);
 }
 
 sensors::LidarProfile stored_in_data(sensors::LidarProfile profile, bool has_rings,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -27,16 +26,11 @@ struct Sidecar {
   std::optional<LogStatements> log;
 };
 
-/// The names of the files, all in one folder.
-struct SidecarFiles {
-  std::filesystem::path statements;
-  std::filesystem::path reference;
-  std::filesystem::path calibration;
-};
+class RecordingFiles;
 
-/// Writes the statements, and the other two where there is something to write.
-/// \throws files::OutputError
-void write_sidecar(const Sidecar& sidecar, const SidecarFiles& files);
+/// Adds reference.tum and calib.txt where there is something to write, and puts everything in its
+/// place with the statements. \throws files::OutputError
+void commit_with_sidecar(const Sidecar& sidecar, RecordingFiles& files);
 
 /// The profile of the copy of a recording that stores rings and times with the points.
 sensors::LidarProfile stored_in_data(sensors::LidarProfile profile, bool has_rings, bool has_times);

@@ -1,7 +1,12 @@
 #include "stamp_files.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <utility>
 
+#include <fmt/format.h>
+
+#include "traverse/files/input_error.hpp"
 #include "traverse/files/numbers.hpp"
 #include "traverse/files/text_file.hpp"
 
@@ -12,6 +17,13 @@ using geometry::Stamp;
 namespace {
 
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+
+std::string_view trimmed(std::string_view line) {
+  constexpr std::string_view kBlanks = " \t\r";
+  const std::size_t first = line.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return line.substr(first, line.find_last_not_of(kBlanks) - first + 1);
+}
 
 std::optional<unsigned> digits(std::string_view text, std::size_t begin, std::size_t count) {
   if (begin + count > text.size()) return std::nullopt;
@@ -53,15 +65,29 @@ std::optional<Stamp> parse_stamp(std::string_view text) {
 }
 
 std::vector<std::optional<Stamp>> read_stamps(const std::filesystem::path& file) {
+  // A line may be a single byte, but its stamp takes sixteen.
+  constexpr std::size_t kMostStamps = std::size_t{1} << 22;  // more than four days at 10 Hz
   std::vector<std::optional<Stamp>> stamps;
-  std::size_t until_last_stamp = 0;
   const std::string text = files::read_text(file);
-  for (const std::string_view line : files::split_cells(text, '\n')) {
+  std::size_t blank_lines = 0;  // since the last stamp
+  std::size_t number = 0;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view line = trimmed(std::string_view(text).substr(begin, end - begin));
+    begin = end + 1;
+    ++number;
     if (line.starts_with('#')) continue;
+    if (line.empty()) {
+      ++blank_lines;
+      continue;
+    }
+    if (stamps.size() + blank_lines >= kMostStamps) {
+      throw files::InputError(file, files::Place::line(number),
+                              fmt::format("at most {} stamps", kMostStamps), "more");
+    }
+    stamps.resize(stamps.size() + std::exchange(blank_lines, 0));
     stamps.push_back(parse_stamp(line));
-    if (!line.empty()) until_last_stamp = stamps.size();
   }
-  stamps.resize(until_last_stamp);
   return stamps;
 }
 

@@ -1,13 +1,16 @@
 #include "traverse/dataset/trajectory_files.hpp"
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "traverse/dataset/trajectory_streams.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/numbers.hpp"
@@ -74,18 +77,23 @@ Pose3 pose_from_quaternion(const LineReader& reader, const Eigen::Quaterniond& q
   return {rotation_of(q), t};
 }
 
-void add_in_order(Trajectory& trajectory, const LineReader& reader, Stamp stamp,
-                  const Pose3& pose) {
-  if (!trajectory.empty() && stamp < trajectory.stamps().back()) {
-    throw reader.error(
-        fmt::format("a stamp not before the last one, {}", to_text(trajectory.stamps().back())),
-        to_text(stamp));
+/// Hands the poses of a file on, and looks at the order of their stamps.
+struct PosesInOrder {
+  const PoseTaker& take;
+  std::optional<Stamp> last = std::nullopt;
+};
+
+void add_in_order(PosesInOrder& poses, const LineReader& reader, Stamp stamp, const Pose3& pose) {
+  if (poses.last && stamp < *poses.last) {
+    throw reader.error(fmt::format("a stamp not before the last one, {}", to_text(*poses.last)),
+                       to_text(stamp));
   }
-  trajectory.push_back(stamp, pose);
+  poses.last = stamp;
+  poses.take(stamp, pose);
 }
 
-Trajectory read_tum(LineReader& reader) {
-  Trajectory trajectory;
+void read_tum(LineReader& reader, const PoseTaker& take) {
+  PosesInOrder poses{take};
   while (reader.next()) {
     const Words words = files::split_words(reader.line());
     if (words.size() != kTumColumns) {
@@ -99,13 +107,12 @@ Trajectory read_tum(LineReader& reader) {
     const Eigen::Vector3d t = position(reader, words, 1);
     const Eigen::Vector3d q_xyz = position(reader, words, 4);
     const Eigen::Quaterniond q(finite_number(reader, words[7]), q_xyz.x(), q_xyz.y(), q_xyz.z());
-    add_in_order(trajectory, reader, *stamp, pose_from_quaternion(reader, q, t));
+    add_in_order(poses, reader, *stamp, pose_from_quaternion(reader, q, t));
   }
-  return trajectory;
 }
 
-Trajectory read_euroc(LineReader& reader) {
-  Trajectory trajectory;
+void read_euroc(LineReader& reader, const PoseTaker& take) {
+  PosesInOrder poses{take};
   while (reader.next()) {
     const Words cells = files::split_cells(reader.line(), ',');
     if (cells.size() < kEurocColumns) {
@@ -119,13 +126,11 @@ Trajectory read_euroc(LineReader& reader) {
     const Eigen::Vector3d t = position(reader, cells, 1);
     const Eigen::Vector3d q_xyz = position(reader, cells, 5);
     const Eigen::Quaterniond q(finite_number(reader, cells[4]), q_xyz.x(), q_xyz.y(), q_xyz.z());
-    add_in_order(trajectory, reader, Stamp{*nanoseconds}, pose_from_quaternion(reader, q, t));
+    add_in_order(poses, reader, Stamp{*nanoseconds}, pose_from_quaternion(reader, q, t));
   }
-  return trajectory;
 }
 
-Trajectory read_kitti(LineReader& reader) {
-  std::vector<Pose3> poses;
+void read_kitti(LineReader& reader, const PoseTaker& take) {
   while (reader.next()) {
     const Words words = files::split_words(reader.line());
     if (words.size() != kKittiColumns) {
@@ -141,24 +146,23 @@ Trajectory read_kitti(LineReader& reader) {
     if (!is_rotation(pose.rotation)) {
       throw reader.error("a rotation matrix in columns 1-3, 5-7, 9-11", "another matrix");
     }
-    poses.push_back(pose);
+    take(std::nullopt, pose);
   }
-  return Trajectory::unstamped(std::move(poses));
 }
 
-Trajectory read_as(const std::filesystem::path& file, TrajectoryFormat format) {
+void read_as(const std::filesystem::path& file, TrajectoryFormat format, const PoseTaker& take) {
   LineReader reader(file);
   switch (format) {
     case TrajectoryFormat::kTum:
-      return read_tum(reader);
+      return read_tum(reader, take);
     case TrajectoryFormat::kKitti:
-      return read_kitti(reader);
+      return read_kitti(reader, take);
     case TrajectoryFormat::kEuroc:
-      return read_euroc(reader);
+      return read_euroc(reader, take);
     case TrajectoryFormat::kAuto:
       break;
   }
-  return read_as(file, detect_trajectory_format(file));
+  read_as(file, detect_trajectory_format(file), take);
 }
 
 void require_poses(const Trajectory& trajectory) {
@@ -201,27 +205,44 @@ TrajectoryFormat detect_trajectory_format(const std::filesystem::path& file) {
   throw reader.error("a pose with 8 columns (TUM), 12 columns (KITTI) or commas (EuRoC)");
 }
 
-Trajectory read_trajectory(const std::filesystem::path& file, TrajectoryFormat format) {
-  Trajectory trajectory = read_as(file, format);
-  if (trajectory.empty()) {
-    throw files::InputError(file, files::Place::whole_file(), "at least one pose", "none");
-  }
-  return trajectory;
+void read_poses(const std::filesystem::path& file, TrajectoryFormat format, const PoseTaker& take) {
+  bool any = false;
+  read_as(file, format, [&](const std::optional<Stamp>& stamp, const Pose3& pose) {
+    any = true;
+    take(stamp, pose);
+  });
+  if (any) return;
+  throw files::InputError(file, files::Place::whole_file(), "at least one pose", "none");
 }
 
-void write_tum(const std::filesystem::path& file, const Trajectory& T_map_body) {
+Trajectory read_trajectory(const std::filesystem::path& file, TrajectoryFormat format) {
+  std::vector<Stamp> stamps;
+  std::vector<Pose3> poses;
+  read_poses(file, format, [&](const std::optional<Stamp>& stamp, const Pose3& pose) {
+    if (stamp) stamps.push_back(*stamp);
+    poses.push_back(pose);
+  });
+  return stamps.empty() ? Trajectory::unstamped(std::move(poses))
+                        : Trajectory::stamped(std::move(stamps), std::move(poses));
+}
+
+void write_tum(std::ostream& stream, const Trajectory& T_map_body) {
   require_ordered_stamps(T_map_body, "TUM");
   require_poses(T_map_body);
-  files::AtomicFile output(file);
   for (std::size_t i = 0; i < T_map_body.size(); ++i) {
     const Eigen::Vector3d& t = T_map_body.pose(i).translation;
     const Eigen::Quaterniond q = quaternion_of(T_map_body.pose(i).rotation);
-    output.stream() << to_text(T_map_body.stamp(i));
+    stream << to_text(T_map_body.stamp(i));
     for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) {
-      output.stream() << ' ' << files::to_text(value);
+      stream << ' ' << files::to_text(value);
     }
-    output.stream() << '\n';
+    stream << '\n';
   }
+}
+
+void write_tum(const std::filesystem::path& file, const Trajectory& T_map_body) {
+  files::AtomicFile output(file);
+  write_tum(output.stream(), T_map_body);
   output.commit();
 }
 
@@ -242,17 +263,21 @@ void write_euroc(const std::filesystem::path& file, const Trajectory& T_map_body
   output.commit();
 }
 
-void write_kitti(const std::filesystem::path& file, const Trajectory& T_map_body) {
+void write_kitti(std::ostream& stream, const Trajectory& T_map_body) {
   require_poses(T_map_body);
-  files::AtomicFile output(file);
   for (const Pose3& pose : T_map_body.poses()) {
     for (Eigen::Index row = 0; row < 3; ++row) {
       for (Eigen::Index column = 0; column < 3; ++column) {
-        output.stream() << files::to_text(pose.rotation(row, column)) << ' ';
+        stream << files::to_text(pose.rotation(row, column)) << ' ';
       }
-      output.stream() << files::to_text(pose.translation[row]) << (row < 2 ? ' ' : '\n');
+      stream << files::to_text(pose.translation[row]) << (row < 2 ? ' ' : '\n');
     }
   }
+}
+
+void write_kitti(const std::filesystem::path& file, const Trajectory& T_map_body) {
+  files::AtomicFile output(file);
+  write_kitti(output.stream(), T_map_body);
   output.commit();
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -17,26 +18,21 @@ using geometry::Pose3;
 
 namespace {
 
-std::vector<Eigen::Vector3d> positions_of(std::span<const Pose3> poses) {
-  std::vector<Eigen::Vector3d> positions;
-  positions.reserve(poses.size());
-  for (const Pose3& pose : poses) positions.push_back(pose.translation);
-  return positions;
-}
-
-Alignment align_by_positions(std::span<const Pose3> estimate, std::span<const Pose3> reference,
+/// From the first `used` poses.
+Alignment align_by_positions(const Poses& estimate, const Poses& reference, std::size_t used,
                              AlignmentMode mode) {
-  Alignment alignment{mode, {}, 1, estimate.size()};
+  Alignment alignment{mode, {}, 1, used};
   try {
-    const auto similarity = geometry::umeyama(positions_of(estimate), positions_of(reference),
-                                              mode != AlignmentMode::kSe3);
+    const auto similarity = geometry::umeyama(
+        used, [&](std::size_t i) { return estimate[i].translation; },
+        [&](std::size_t i) { return reference[i].translation; }, mode != AlignmentMode::kSe3);
     alignment.scale = similarity.scale;
     if (mode != AlignmentMode::kScale) alignment.T_reference_estimate = similarity.T_y_x;
   } catch (const geometry::DegenerateAlignment&) {
     throw EvaluationError(
         fmt::format("the {} alignment is not determined: the {} positions it is found from lie on "
                     "one point or one line; alignment at the origin or none is possible",
-                    name_of(mode), estimate.size()));
+                    name_of(mode), used));
   }
   return alignment;
 }
@@ -50,8 +46,7 @@ Pose3 Alignment::operator()(const Pose3& T_estimate_body) const {
          Pose3{T_estimate_body.rotation, scale * T_estimate_body.translation};
 }
 
-Alignment align(std::span<const Pose3> estimate, std::span<const Pose3> reference,
-                const AlignmentOptions& options) {
+Alignment align(const Poses& estimate, const Poses& reference, const AlignmentOptions& options) {
   require_matched(estimate, reference);
   if (options.first == std::size_t{0}) {
     throw std::invalid_argument("an alignment needs at least one pose");
@@ -65,16 +60,23 @@ Alignment align(std::span<const Pose3> estimate, std::span<const Pose3> referenc
     case AlignmentMode::kSe3:
     case AlignmentMode::kSim3:
     case AlignmentMode::kScale:
-      return align_by_positions(estimate.first(used), reference.first(used), options.mode);
+      return align_by_positions(estimate, reference, used, options.mode);
   }
   return {};
 }
 
-std::vector<Pose3> aligned(std::span<const Pose3> estimate, const Alignment& alignment) {
-  std::vector<Pose3> poses;
-  poses.reserve(estimate.size());
-  for (const Pose3& pose : estimate) poses.push_back(alignment(pose));
-  return poses;
+Poses aligned(Poses estimate, const Alignment& alignment) {
+  const std::size_t size = estimate.size();
+  return {size, [estimate = std::move(estimate), alignment](std::size_t i) {
+            return alignment(estimate[i]);
+          }};
+}
+
+std::vector<Pose3> to_vector(const Poses& poses) {
+  std::vector<Pose3> kept;
+  kept.reserve(poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) kept.push_back(poses[i]);
+  return kept;
 }
 
 }  // namespace traverse::evaluation

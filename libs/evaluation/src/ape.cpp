@@ -4,8 +4,7 @@
 
 namespace traverse::evaluation {
 
-Ape ape(std::span<const geometry::Pose3> estimate, std::span<const geometry::Pose3> reference,
-        Relation relation) {
+Ape ape(const Poses& estimate, const Poses& reference, Relation relation) {
   require_matched(estimate, reference);
   Ape result;
   result.relation = relation;

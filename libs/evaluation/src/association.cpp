@@ -15,7 +15,6 @@
 namespace traverse::evaluation {
 
 using geometry::Stamp;
-using geometry::Trajectory;
 
 namespace {
 
@@ -28,26 +27,33 @@ Nanoseconds to_nanoseconds(double seconds) { return std::llround(seconds * 1e9);
 double to_seconds(Nanoseconds value) { return static_cast<double>(value) * 1e-9; }
 Nanoseconds magnitude(Nanoseconds value) { return value < 0 ? -value : value; }
 
-std::vector<Nanoseconds> times_of(const Trajectory& trajectory, Nanoseconds offset) {
-  std::vector<Nanoseconds> times;
-  times.reserve(trajectory.size());
-  for (const Stamp stamp : trajectory.stamps()) times.push_back(stamp.nanoseconds + offset);
-  return times;
-}
+/// Tells of times that do not go back the index of the nearest stamp of a trajectory that is moved
+/// by `offset`, the first of several.
+class Nearest {
+ public:
+  Nearest(std::span<const Stamp> stamps, Nanoseconds offset) : stamps_(stamps), offset_(offset) {}
 
-/// The index of the time nearest to `time`, the first of several.
-std::size_t nearest(const std::vector<Nanoseconds>& times, Nanoseconds time) {
-  const auto after = std::lower_bound(times.begin(), times.end(), time);
-  if (after == times.begin()) return 0;
-  const Nanoseconds before = *std::prev(after);
-  const bool take_after = after != times.end() && *after - time < time - before;
-  const auto found = take_after ? after : std::lower_bound(times.begin(), after, before);
-  return static_cast<std::size_t>(found - times.begin());
-}
+  std::size_t operator()(Nanoseconds time) {
+    for (; after_ < stamps_.size() && at(after_) < time; ++after_) {
+      if (stamps_[after_] != stamps_[before_]) before_ = after_;
+    }
+    if (after_ == 0) return 0;
+    const bool take_after = after_ < stamps_.size() && at(after_) - time < time - at(before_);
+    return take_after ? after_ : before_;
+  }
 
-std::string span_text(const Trajectory& trajectory) {
-  return fmt::format("{} to {} s", to_text(trajectory.stamps().front()),
-                     to_text(trajectory.stamps().back()));
+ private:
+  Nanoseconds at(std::size_t i) const { return stamps_[i].nanoseconds + offset_; }
+
+  std::span<const Stamp> stamps_;
+  Nanoseconds offset_;
+  std::size_t after_ = 0;   ///< the first not before the last time
+  std::size_t before_ = 0;  ///< the first of those as late as the one before that
+};
+
+std::string span_text(const TrajectoryView& trajectory) {
+  return fmt::format("{} to {} s", to_text(trajectory.stamps.front()),
+                     to_text(trajectory.stamps.back()));
 }
 
 void require_usable(const AssociationOptions& options) {
@@ -59,8 +65,8 @@ void require_usable(const AssociationOptions& options) {
   }
 }
 
-void require_ordered(const Trajectory& trajectory, const char* which) {
-  const auto& stamps = trajectory.stamps();
+void require_ordered(const TrajectoryView& trajectory, const char* which) {
+  const auto& stamps = trajectory.stamps;
   const auto backward = std::is_sorted_until(stamps.begin(), stamps.end());
   if (backward == stamps.end()) return;
   throw EvaluationError(fmt::format("the stamps of the {} go back at pose {}: {} s after {} s",
@@ -68,7 +74,7 @@ void require_ordered(const Trajectory& trajectory, const char* which) {
                                     to_text(*std::prev(backward))));
 }
 
-void associate_by_index(const Trajectory& estimate, const Trajectory& reference,
+void associate_by_index(const TrajectoryView& estimate, const TrajectoryView& reference,
                         Association& association) {
   if (estimate.size() != reference.size()) {
     throw EvaluationError(fmt::format(
@@ -80,24 +86,32 @@ void associate_by_index(const Trajectory& estimate, const Trajectory& reference,
     throw EvaluationError("a time offset needs trajectories with stamps");
   }
   association.mode = AssociationMode::kIndex;
+  association.matches.reserve(estimate.size());
   for (std::size_t i = 0; i < estimate.size(); ++i) association.matches.push_back({i, i, 0});
 }
 
-void associate_by_stamp(const Trajectory& estimate, const Trajectory& reference,
+void associate_by_stamp(const TrajectoryView& estimate, const TrajectoryView& reference,
                         Association& association) {
   const Nanoseconds offset = to_nanoseconds(association.options.time_offset_s);
   const Nanoseconds limit = to_nanoseconds(association.options.max_time_difference_s);
-  const auto estimate_times = times_of(estimate, offset);
-  const auto reference_times = times_of(reference, 0);
   const bool estimate_drives = estimate.size() <= reference.size();
+  Nearest nearest(estimate_drives ? reference.stamps : estimate.stamps,
+                  estimate_drives ? Nanoseconds{0} : offset);
+  const auto estimate_time = [&](std::size_t i) {
+    return Nanoseconds{estimate.stamps[i].nanoseconds} + offset;
+  };
+  const auto reference_time = [&](std::size_t i) {
+    return Nanoseconds{reference.stamps[i].nanoseconds};
+  };
 
+  const std::size_t most = std::min(estimate.size(), reference.size());
+  association.matches.reserve(most);
   Nanoseconds closest = std::numeric_limits<Nanoseconds>::max();
-  for (std::size_t k = 0; k < std::min(estimate.size(), reference.size()); ++k) {
+  for (std::size_t k = 0; k < most; ++k) {
     Match match;
-    match.estimate = estimate_drives ? k : nearest(estimate_times, reference_times[k]);
-    match.reference = estimate_drives ? nearest(reference_times, estimate_times[k]) : k;
-    const Nanoseconds difference =
-        estimate_times[match.estimate] - reference_times[match.reference];
+    match.estimate = estimate_drives ? k : nearest(reference_time(k));
+    match.reference = estimate_drives ? nearest(estimate_time(k)) : k;
+    const Nanoseconds difference = estimate_time(match.estimate) - reference_time(match.reference);
     match.time_difference_s = to_seconds(difference);
     closest = std::min(closest, magnitude(difference));
     if (magnitude(difference) <= limit) association.matches.push_back(match);
@@ -126,23 +140,23 @@ double Association::largest_time_difference_s() const {
   return largest;
 }
 
-Association associate(const Trajectory& estimate, const Trajectory& reference,
+Association associate(const TrajectoryView& estimate, const TrajectoryView& reference,
                       const AssociationOptions& options) {
   require_usable(options);
   if (estimate.empty() || reference.empty()) {
     throw EvaluationError(
         fmt::format("the {} has no pose", estimate.empty() ? "estimate" : "reference"));
   }
-  if (estimate.is_stamped() != reference.is_stamped()) {
+  if (estimate.is_stamped != reference.is_stamped) {
     throw EvaluationError(
         fmt::format("the {} has stamps and the {} has none: poses can be matched by stamp or by "
                     "index, not by both",
-                    estimate.is_stamped() ? "estimate" : "reference",
-                    estimate.is_stamped() ? "reference" : "estimate"));
+                    estimate.is_stamped ? "estimate" : "reference",
+                    estimate.is_stamped ? "reference" : "estimate"));
   }
   Association association;
   association.options = options;
-  if (!estimate.is_stamped()) {
+  if (!estimate.is_stamped) {
     associate_by_index(estimate, reference, association);
   } else {
     require_ordered(estimate, "estimate");
@@ -152,14 +166,13 @@ Association associate(const Trajectory& estimate, const Trajectory& reference,
   return association;
 }
 
-MatchedPoses matched_poses(const Trajectory& estimate, const Trajectory& reference,
-                           const Association& association) {
-  MatchedPoses poses;
-  for (const Match& match : association.matches) {
-    poses.estimate.push_back(estimate.pose(match.estimate));
-    poses.reference.push_back(reference.pose(match.reference));
-  }
-  return poses;
+MatchedPoses matched_poses(const TrajectoryView& estimate, const TrajectoryView& reference,
+                           std::span<const Match> matches) {
+  return {{matches.size(),
+           [poses = estimate.poses, matches](std::size_t k) { return poses[matches[k].estimate]; }},
+          {matches.size(), [poses = reference.poses, matches](std::size_t k) {
+             return poses[matches[k].reference];
+           }}};
 }
 
 }  // namespace traverse::evaluation

@@ -9,38 +9,38 @@
 namespace traverse::evaluation {
 
 using geometry::Pose3;
-using geometry::Trajectory;
 
 namespace {
 
 constexpr double kFarthest_m = 1e12;  // squares and sums of positions below it stay finite
 
-void require_finite(const Trajectory& trajectory, const char* which) {
+/// Goes through the poses once. \throws EvaluationError if one is not finite
+TrajectoryFacts facts_of(const TrajectoryView& trajectory, const char* which) {
+  TrajectoryFacts facts;
+  facts.poses = trajectory.size();
+  Eigen::Vector3d last;
   for (std::size_t i = 0; i < trajectory.size(); ++i) {
-    const Pose3& pose = trajectory.pose(i);
+    const Pose3 pose = trajectory.poses[i];
     if (!pose.rotation.allFinite() || !(pose.translation.array().abs() < kFarthest_m).all()) {
       throw EvaluationError(
           fmt::format("pose {} of the {} is not finite or beyond {} m", i, which, kFarthest_m));
     }
+    if (i > 0) facts.path_m += (pose.translation - last).norm();
+    last = pose.translation;
   }
-}
-
-TrajectoryFacts facts_of(const Trajectory& trajectory) {
-  TrajectoryFacts facts;
-  facts.poses = trajectory.size();
-  facts.path_m = trajectory.path_length();
-  if (trajectory.is_stamped() && !trajectory.empty()) {
-    facts.first = trajectory.stamps().front();
-    facts.last = trajectory.stamps().back();
+  if (trajectory.is_stamped && !trajectory.empty()) {
+    facts.first = trajectory.stamps.front();
+    facts.last = trajectory.stamps.back();
   }
   return facts;
 }
 
-std::vector<geometry::Stamp> matched_stamps(const Trajectory& estimate,
+std::vector<geometry::Stamp> matched_stamps(const TrajectoryView& estimate,
                                             const Association& association) {
   std::vector<geometry::Stamp> stamps;
   if (association.mode == AssociationMode::kIndex) return stamps;
-  for (const Match& match : association.matches) stamps.push_back(estimate.stamp(match.estimate));
+  stamps.reserve(association.matches.size());
+  for (const Match& match : association.matches) stamps.push_back(estimate.stamps[match.estimate]);
   return stamps;
 }
 
@@ -56,8 +56,8 @@ void compute_if_defined(const EvaluationOptions& options, const std::string& met
   }
 }
 
-void add_rpe(const std::vector<Pose3>& estimate, const std::vector<Pose3>& reference,
-             const EvaluationOptions& options, Comparison& comparison) {
+void add_rpe(const Poses& estimate, const Poses& reference, const EvaluationOptions& options,
+             Comparison& comparison) {
   for (const RpeOptions& rpe_options : options.rpe) {
     const std::string pairs_text = describe(rpe_options);
     std::vector<IndexPair> pairs;
@@ -102,32 +102,30 @@ EvaluationOptions run_evaluation_options() {
   return options;
 }
 
-Evaluation evaluate(const Trajectory& estimate, const Trajectory& reference,
+Evaluation evaluate(const TrajectoryView& estimate, const TrajectoryView& reference,
                     const EvaluationOptions& options) {
-  require_finite(estimate, "estimate");
-  require_finite(reference, "reference");
+  const TrajectoryFacts facts = facts_of(estimate, "estimate");
   Comparison comparison;
-  comparison.reference = facts_of(reference);
+  comparison.reference = facts_of(reference, "reference");
   comparison.association = associate(estimate, reference, options.association);
   comparison.stamps = matched_stamps(estimate, comparison.association);
 
-  const MatchedPoses matched = matched_poses(estimate, reference, comparison.association);
+  const MatchedPoses matched = matched_poses(estimate, reference, comparison.association.matches);
   comparison.distances_m = accumulated_distances(matched.reference);
   comparison.path = path_figures(matched.estimate, matched.reference);
   add_kitti(matched, options.kitti, comparison);
 
   comparison.alignment = align(matched.estimate, matched.reference, options.alignment);
-  const std::vector<Pose3> aligned_estimate = aligned(matched.estimate, comparison.alignment);
+  const Poses aligned_estimate = aligned(matched.estimate, comparison.alignment);
   for (const Relation relation : options.ape_relations) {
     comparison.ape.push_back(ape(aligned_estimate, matched.reference, relation));
   }
   add_rpe(aligned_estimate, matched.reference, options, comparison);
-  return {facts_of(estimate), std::move(comparison), std::nullopt};
+  return {facts, std::move(comparison), std::nullopt};
 }
 
-Evaluation evaluate(const Trajectory& estimate) {
-  require_finite(estimate, "estimate");
-  return {facts_of(estimate), std::nullopt, std::nullopt};
+Evaluation evaluate(const TrajectoryView& estimate) {
+  return {facts_of(estimate, "estimate"), std::nullopt, std::nullopt};
 }
 
 const Ape* find_ape(const Comparison& comparison, Relation relation) {

@@ -1,286 +1,251 @@
-#include <concepts>
-#include <type_traits>
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include <Eigen/LU>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "traverse/evaluation/json.hpp"
+#include "traverse/files/json_document.hpp"
 
 #include "names.hpp"
 
 namespace traverse::evaluation {
 
-using Json = nlohmann::ordered_json;
+using files::JsonDocument;
+using files::JsonValue;
 
 namespace {
 
-/// A value of the file that knows which keys lead to it, so that an error can name them.
-class Node {
- public:
-  Node(const Json& json, std::string path) : json_(json), path_(std::move(path)) {}
+/// \throws files::InputError unless the list has `count` elements.
+template <typename Value>
+std::vector<Value> of_size(std::vector<Value> values, std::size_t count, const JsonValue& json) {
+  if (values.size() != count) throw json.error(fmt::format("a list of {}", count));
+  return values;
+}
 
-  Node operator[](const std::string& key) const {
-    if (!json_.is_object() || !json_.contains(key)) throw missing(path_ + key, "it is not there");
-    return {json_.at(key), path_ + key + "."};
-  }
-  Node operator[](std::size_t index) const {
-    return {json_.at(index), path_ + std::to_string(index) + "."};
-  }
+std::vector<double> numbers_of(const JsonValue& json, std::size_t count) {
+  return of_size(json.numbers(), count, json);
+}
+std::vector<std::size_t> counts_of(const JsonValue& json, std::size_t count) {
+  return of_size(json.counts(), count, json);
+}
 
-  bool is_null() const { return json_.is_null(); }
-  std::size_t size() const {
-    if (!json_.is_array()) throw wrong("a list");
-    return json_.size();
-  }
+template <typename Enum, std::size_t N>
+Enum one_of(const std::array<std::pair<std::string_view, Enum>, N>& names, const JsonValue& json) {
+  const auto value = value_in(names, json.text());
+  if (!value) throw json.error("a known name");
+  return *value;
+}
 
-  template <typename Value>
-  Value as() const {
-    if constexpr (std::same_as<Value, bool>) {
-      if (!json_.is_boolean()) throw wrong("true or false");
-    } else if constexpr (std::unsigned_integral<Value>) {
-      if (!json_.is_number_unsigned()) throw wrong("a count");
-    } else if constexpr (std::integral<Value>) {
-      if (!json_.is_number_integer()) throw wrong("a whole number");
-    } else if constexpr (std::floating_point<Value>) {
-      if (!json_.is_number()) throw wrong("a number");
-    } else {
-      if (!json_.is_string()) throw wrong("a text");
-    }
-    return json_.get<Value>();
-  }
-
-  template <typename Value>
-  std::vector<Value> list() const {
-    std::vector<Value> values;
-    values.reserve(size());
-    for (std::size_t i = 0; i < size(); ++i) values.push_back((*this)[i].as<Value>());
-    return values;
-  }
-  /// A list that must have `count` elements.
-  template <typename Value>
-  std::vector<Value> list(std::size_t count) const {
-    if (size() != count) throw wrong(fmt::format("a list of {}", count));
-    return list<Value>();
-  }
-
-  template <typename Value>
-  std::optional<Value> optional() const {
-    return is_null() ? std::nullopt : std::optional(as<Value>());
-  }
-
-  template <typename Enum, std::size_t N>
-  Enum one_of(const std::array<std::pair<std::string_view, Enum>, N>& names) const {
-    const auto value = value_in(names, as<std::string>());
-    if (!value) throw wrong("a known name");
-    return *value;
-  }
-
-  /// The named members of an object, in order.
-  template <typename Visit>
-  void each_member(Visit visit) const {
-    if (!json_.is_object()) throw wrong("an object");
-    for (const auto& item : json_.items()) visit(item.key(), (*this)[item.key()]);
-  }
-
-  EvaluationError wrong(const std::string& expected) const {
-    const std::string found = json_.is_structured() ? json_.type_name() : json_.dump();
-    return missing(path_.substr(0, path_.size() - 1), "expected " + expected + ", found " + found);
-  }
-
- private:
-  static EvaluationError missing(const std::string& path, const std::string& what) {
-    return EvaluationError(fmt::format("not an evaluation, key {}: {}", path, what));
-  }
-
-  const Json& json_;
-  std::string path_;
-};
-
-std::optional<geometry::Stamp> optional_stamp(const Node& node) {
-  const auto nanoseconds = node.optional<std::int64_t>();
+std::optional<geometry::Stamp> optional_stamp(const JsonValue& node) {
+  const auto nanoseconds = node.optional_integer();
   return nanoseconds ? std::optional(geometry::Stamp{*nanoseconds}) : std::nullopt;
 }
 
-TrajectoryFacts facts_from(const Node& node) {
-  return {node["name"].as<std::string>(), node["poses"].as<std::size_t>(),
-          node["path_m"].as<double>(), optional_stamp(node["first_stamp_ns"]),
-          optional_stamp(node["last_stamp_ns"])};
+TrajectoryFacts facts_from(const JsonValue& node) {
+  return {node["name"].text(), node["poses"].count(), node["path_m"].number(),
+          optional_stamp(node["first_stamp_ns"]), optional_stamp(node["last_stamp_ns"])};
 }
 
-Statistics statistics_from(const Node& node) {
-  return {node["rmse"].as<double>(), node["mean"].as<double>(),      node["median"].as<double>(),
-          node["std"].as<double>(),  node["min"].as<double>(),       node["max"].as<double>(),
-          node["sse"].as<double>(),  node["count"].as<std::size_t>()};
+Statistics statistics_from(const JsonValue& node) {
+  return {node["rmse"].number(), node["mean"].number(), node["median"].number(),
+          node["std"].number(),  node["min"].number(),  node["max"].number(),
+          node["sse"].number(),  node["count"].count()};
 }
 
-void read_association(const Node& node, Comparison& comparison) {
+void read_association(const JsonValue& node, Comparison& comparison) {
   Association& association = comparison.association;
-  association.mode = node["by"].one_of(kAssociationNames);
-  association.options = {node["max_time_difference"].as<double>(),
-                         node["time_offset"].as<double>()};
-  const auto pairs = node["pairs"].as<std::size_t>();
-  const Node per_pair = node["per_pair"];
-  const auto estimate = per_pair["estimate"].list<std::size_t>(pairs);
-  const auto reference = per_pair["reference"].list<std::size_t>(pairs);
-  const auto difference_s = per_pair["time_difference_s"].list<double>(pairs);
+  association.mode = one_of(kAssociationNames, node["by"]);
+  association.options = {node["max_time_difference"].number(), node["time_offset"].number()};
+  const auto pairs = node["pairs"].count();
+  const JsonValue per_pair = node["per_pair"];
+  const auto estimate = counts_of(per_pair["estimate"], pairs);
+  const auto reference = counts_of(per_pair["reference"], pairs);
+  const auto difference_s = numbers_of(per_pair["time_difference_s"], pairs);
   for (std::size_t i = 0; i < pairs; ++i) {
     association.matches.push_back({estimate[i], reference[i], difference_s[i]});
   }
   if (association.mode == AssociationMode::kStamp) {
-    for (const std::int64_t stamp : per_pair["stamp_ns"].list<std::int64_t>(pairs)) {
+    const JsonValue stamps = per_pair["stamp_ns"];
+    for (const std::int64_t stamp : of_size(stamps.integers(), pairs, stamps)) {
       comparison.stamps.push_back({stamp});
     }
   }
-  comparison.distances_m = per_pair["distance_m"].list<double>(pairs);
+  comparison.distances_m = numbers_of(per_pair["distance_m"], pairs);
+  const auto& path_m = comparison.distances_m;
+  if (!std::is_sorted(path_m.begin(), path_m.end()) || (!path_m.empty() && path_m.front() != 0)) {
+    throw per_pair["distance_m"].error("distances from 0 on that never shrink");
+  }
 }
 
-geometry::Pose3 pose_from(const Node& rows) {
-  if (rows.size() != 4) throw rows.wrong("four rows");
+constexpr double kRotationTolerance = 1e-2;  // as of trajectory files
+
+geometry::Pose3 pose_from(const JsonValue& rows) {
+  if (rows.size() != 4) throw rows.error("four rows");
   Eigen::Matrix4d T;
   for (Eigen::Index row = 0; row < 4; ++row) {
-    const auto numbers = rows[static_cast<std::size_t>(row)].list<double>(4);
+    const auto numbers = numbers_of(rows[static_cast<std::size_t>(row)], 4);
     T.row(row) = Eigen::Map<const Eigen::RowVector4d>(numbers.data());
   }
-  return geometry::Pose3::from_matrix(T);
+  const geometry::Pose3 pose = geometry::Pose3::from_matrix(T);
+  const Eigen::Matrix3d& R = pose.rotation;
+  const double deviation = (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(deviation < kRotationTolerance && R.determinant() > 0)) {
+    throw rows.error("a rotation in the first three columns", "another matrix");
+  }
+  return pose;
 }
 
-Alignment alignment_from(const Node& node) {
+Alignment alignment_from(const JsonValue& node) {
   Alignment alignment;
-  alignment.mode = node["mode"].one_of(kAlignmentNames);
-  alignment.scale = node["scale"].as<double>();
-  alignment.poses_used = node["poses_used"].as<std::size_t>();
+  alignment.mode = one_of(kAlignmentNames, node["mode"]);
+  alignment.scale = node["scale"].number();
+  if (!(alignment.scale > 0)) throw node["scale"].error("a scale above 0");
+  alignment.poses_used = node["poses_used"].count();
   alignment.T_reference_estimate = pose_from(node["T_reference_estimate"]);
   return alignment;
 }
 
-std::vector<std::size_t> indices_from(const Node& node, std::size_t count, std::size_t below) {
-  std::vector<std::size_t> indices = node.list<std::size_t>(count);
+std::vector<std::size_t> indices_from(const JsonValue& node, std::size_t count, std::size_t below) {
+  std::vector<std::size_t> indices = counts_of(node, count);
   for (const std::size_t index : indices) {
-    if (index >= below) throw node.wrong(fmt::format("indices of {} pairs", below));
+    if (index >= below) {
+      throw node.error(fmt::format("indices of {} pairs", below), std::to_string(index));
+    }
   }
   return indices;
 }
 
-Rpe rpe_from(const Node& node, std::size_t matches) {
+Rpe rpe_from(const JsonValue& node, std::size_t matches) {
   Rpe rpe;
-  rpe.options.delta = {node["delta"].as<double>(), node["unit"].one_of(kDeltaUnitNames)};
-  rpe.options.all_pairs = node["all_pairs"].as<bool>();
-  rpe.options.pairs_from = node["pairs_from"].one_of(kPairsFromNames);
-  rpe.relation = node["relation"].one_of(kRelationNames);
-  rpe.dropped_without_motion = node["dropped_without_motion"].as<std::size_t>();
+  rpe.options.delta = {node["delta"].number(), one_of(kDeltaUnitNames, node["unit"])};
+  rpe.options.all_pairs = node["all_pairs"].boolean();
+  rpe.options.pairs_from = one_of(kPairsFromNames, node["pairs_from"]);
+  rpe.relation = one_of(kRelationNames, node["relation"]);
+  rpe.dropped_without_motion = node["dropped_without_motion"].count();
   rpe.statistics = statistics_from(node["stats"]);
   const std::size_t count = rpe.statistics.count;
-  const Node per_pair = node["per_pair"];
+  const JsonValue per_pair = node["per_pair"];
   const auto from = indices_from(per_pair["from"], count, matches);
   const auto to = indices_from(per_pair["to"], count, matches);
-  for (std::size_t i = 0; i < count; ++i) rpe.pairs.push_back({from[i], to[i]});
-  rpe.values = per_pair["value"].list<double>(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (from[i] >= to[i]) throw per_pair["from"].error("pairs in the order of time", "others");
+    rpe.pairs.push_back({from[i], to[i]});
+  }
+  rpe.values = numbers_of(per_pair["value"], count);
   return rpe;
 }
 
-std::vector<KittiBin> bins_from(const Node& node, const char* centre) {
+std::vector<KittiBin> bins_from(const JsonValue& node, const char* centre) {
   std::vector<KittiBin> bins;
   for (std::size_t i = 0; i < node.size(); ++i) {
-    bins.push_back({node[i][centre].as<double>(), node[i]["segments"].as<std::size_t>(),
-                    node[i]["translation_percent"].as<double>(),
-                    node[i]["rotation_deg_per_m"].as<double>()});
+    bins.push_back({node[i][centre].number(), node[i]["segments"].count(),
+                    node[i]["translation_percent"].number(),
+                    node[i]["rotation_deg_per_m"].number()});
   }
   return bins;
 }
 
-KittiDrift kitti_from(const Node& node, std::size_t matches) {
+KittiDrift kitti_from(const JsonValue& node, std::size_t matches) {
   KittiDrift kitti;
-  kitti.frame = node["frame"].as<std::string>();
-  const Node T_body_camera = node["T_body_camera"];
+  kitti.frame = node["frame"].text();
+  const JsonValue T_body_camera = node["T_body_camera"];
   if (!T_body_camera.is_null()) kitti.T_body_camera = pose_from(T_body_camera);
-  kitti.step = node["step"].as<std::size_t>();
-  kitti.frame_seconds = node["frame_seconds"].as<double>();
-  kitti.translation_percent = node["translation_percent"].as<double>();
-  kitti.rotation_deg_per_m = node["rotation_deg_per_m"].as<double>();
+  kitti.step = node["step"].count();
+  kitti.frame_seconds = node["frame_seconds"].number();
+  kitti.translation_percent = node["translation_percent"].number();
+  kitti.rotation_deg_per_m = node["rotation_deg_per_m"].number();
   kitti.by_length = bins_from(node["by_length"], "length_m");
   kitti.by_speed = bins_from(node["by_speed"], "speed_mps");
-  const auto count = node["segments"].as<std::size_t>();
-  const Node per_segment = node["per_segment"];
+  const auto count = node["segments"].count();
+  const JsonValue per_segment = node["per_segment"];
   const auto first = indices_from(per_segment["first"], count, matches);
   const auto last = indices_from(per_segment["last"], count, matches);
-  const auto length_m = per_segment["length_m"].list<double>(count);
-  const auto translation = per_segment["translation_percent"].list<double>(count);
-  const auto rotation = per_segment["rotation_deg_per_m"].list<double>(count);
-  const auto speed_mps = per_segment["speed_mps"].list<double>(count);
+  const auto length_m = numbers_of(per_segment["length_m"], count);
+  const auto translation = numbers_of(per_segment["translation_percent"], count);
+  const auto rotation = numbers_of(per_segment["rotation_deg_per_m"], count);
+  const auto speed_mps = numbers_of(per_segment["speed_mps"], count);
   for (std::size_t i = 0; i < count; ++i) {
+    if (first[i] > last[i]) throw per_segment["first"].error("segments in the order of time");
     kitti.segments.push_back(
         {first[i], last[i], length_m[i], translation[i], rotation[i], speed_mps[i]});
   }
   return kitti;
 }
 
-PathFigures path_from(const Node& node) {
-  return {node["estimate_m"].as<double>(), node["reference_m"].as<double>(),
-          node["end_error_m"].as<double>(), node["end_error_percent"].optional<double>(),
-          node["end_rotation_deg"].as<double>()};
+PathFigures path_from(const JsonValue& node) {
+  return {node["estimate_m"].number(), node["reference_m"].number(), node["end_error_m"].number(),
+          node["end_error_percent"].optional_number(), node["end_rotation_deg"].number()};
 }
 
-Consistency consistency_from(const Node& node) {
+Consistency consistency_from(const JsonValue& node) {
   Consistency score;
-  score.mme = node["mme"].as<double>();
-  score.mpv_m = node["mpv_m"].as<double>();
-  score.queries = node["queries"].as<std::size_t>();
-  score.scans = node["scans"].as<std::size_t>();
-  score.points = node["points"].as<std::size_t>();
-  score.points_are = node["points_are"].as<std::string>();
-  const Node plane = node["point_to_plane"];
+  score.mme = node["mme"].number();
+  score.mpv_m = node["mpv_m"].number();
+  score.queries = node["queries"].count();
+  score.scans = node["scans"].count();
+  score.points = node["points"].count();
+  score.points_are = node["points_are"].text();
+  const JsonValue plane = node["point_to_plane"];
   if (!plane.is_null()) {
-    score.point_to_plane = {plane["queries"].as<std::size_t>(), plane["mean_m"].as<double>(),
-                            plane["median_m"].as<double>(), plane["p90_m"].as<double>()};
+    score.point_to_plane = {plane["queries"].count(), plane["mean_m"].number(),
+                            plane["median_m"].number(), plane["p90_m"].number()};
   }
   return score;
 }
 
-Comparison comparison_from(const Node& root) {
+Comparison comparison_from(const JsonValue& root) {
   Comparison comparison;
   comparison.reference = facts_from(root["reference"]);
   read_association(root["association"], comparison);
   const std::size_t matches = comparison.association.matches.size();
   comparison.alignment = alignment_from(root["alignment"]);
-  root["ape"].each_member([&](const std::string& name, const Node& node) {
+  for (const std::string& name : root["ape"].keys()) {
+    const JsonValue ape = root["ape"][name];
     const auto relation = value_in(kRelationNames, name);
-    if (!relation) throw node.wrong("only known relations");
+    if (!relation) throw ape.error("only known relations", name);
     comparison.ape.push_back(
-        {*relation, node["per_pair"]["value"].list<double>(matches), statistics_from(node)});
-  });
-  const Node rpe = root["rpe"];
+        {*relation, numbers_of(ape["per_pair"]["value"], matches), statistics_from(ape)});
+  }
+  const JsonValue rpe = root["rpe"];
   for (std::size_t i = 0; i < rpe.size(); ++i) {
     comparison.rpe.push_back(rpe_from(rpe[i], matches));
   }
   if (!root["kitti"].is_null()) comparison.kitti = kitti_from(root["kitti"], matches);
   comparison.path = path_from(root["path"]);
-  const Node undefined = root["undefined"];
+  const JsonValue undefined = root["undefined"];
   for (std::size_t i = 0; i < undefined.size(); ++i) {
-    comparison.undefined.push_back(
-        {undefined[i]["metric"].as<std::string>(), undefined[i]["reason"].as<std::string>()});
+    comparison.undefined.push_back({undefined[i]["metric"].text(), undefined[i]["reason"].text()});
   }
   return comparison;
 }
 
-Json parse(std::string_view text) {
-  try {
-    return Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    throw EvaluationError(fmt::format("not an evaluation: no JSON from byte {} on", error.byte));
-  }
-}
-
-}  // namespace
-
-Evaluation from_json(std::string_view text) {
-  const Json json = parse(text);
-  const Node root(json, "");
+Evaluation evaluation_from(const JsonValue& root) {
   Evaluation evaluation;
   evaluation.estimate = facts_from(root["estimate"]);
   if (!root["reference"].is_null()) evaluation.comparison = comparison_from(root);
   if (!root["consistency"].is_null())
     evaluation.consistency = consistency_from(root["consistency"]);
   return evaluation;
+}
+
+}  // namespace
+
+Evaluation from_json(std::string_view text) {
+  try {
+    return evaluation_from(JsonDocument::parse(text).root());
+  } catch (const files::InputError& error) {
+    throw EvaluationError(fmt::format("not an evaluation, {}: expected {}, found {}",
+                                      error.place().text, error.expected(), error.found()));
+  }
+}
+
+Evaluation read_evaluation(const std::filesystem::path& file) {
+  return evaluation_from(JsonDocument::read(file).root());
 }
 
 }  // namespace traverse::evaluation

@@ -12,19 +12,15 @@
 namespace traverse::evaluation {
 
 using geometry::Pose3;
-using Poses = std::span<const Pose3>;
 
 namespace {
 
 constexpr double kLengthTolerance_m = 1;
 constexpr double kSpeedTolerance_mps = 2;  // wider than half the step: the bins overlap
 
-std::vector<Pose3> in_frame(Poses poses, const std::optional<Pose3>& T_body_frame) {
-  std::vector<Pose3> result(poses.begin(), poses.end());
-  if (T_body_frame) {
-    for (Pose3& pose : result) pose = pose * *T_body_frame;
-  }
-  return result;
+Poses in_frame(const Poses& poses, const std::optional<Pose3>& T_body_frame) {
+  if (!T_body_frame) return poses;
+  return {poses.size(), [poses, T = *T_body_frame](std::size_t i) { return poses[i] * T; }};
 }
 
 /// The angle by the trace, as the devkit has it.
@@ -32,8 +28,8 @@ double angle_by_trace(const Eigen::Matrix3d& R) {
   return std::acos(std::clamp((R.trace() - 1) / 2, -1.0, 1.0));
 }
 
-KittiSegment segment_between(Poses estimate, Poses reference, std::size_t first, std::size_t last,
-                             double length_m, double frame_seconds) {
+KittiSegment segment_between(const Poses& estimate, const Poses& reference, std::size_t first,
+                             std::size_t last, double length_m, double frame_seconds) {
   const Pose3 estimated_motion = estimate[first].inverse() * estimate[last];
   const Pose3 reference_motion = reference[first].inverse() * reference[last];
   const Pose3 E = estimated_motion.inverse() * reference_motion;
@@ -44,10 +40,11 @@ KittiSegment segment_between(Poses estimate, Poses reference, std::size_t first,
   return segment;
 }
 
-std::vector<KittiSegment> all_segments(Poses estimate, Poses reference,
+std::vector<KittiSegment> all_segments(const Poses& estimate, const Poses& reference,
                                        const KittiDriftOptions& options) {
   const std::vector<double> path_m = accumulated_distances(reference);
   std::vector<KittiSegment> segments;
+  segments.reserve(((path_m.size() - 1) / options.step + 1) * kKittiLengths_m.size());
   for (std::size_t first = 0; first < path_m.size(); first += options.step) {
     for (const double length_m : kKittiLengths_m) {
       const auto end = std::upper_bound(path_m.begin(), path_m.end(), path_m[first] + length_m);
@@ -93,7 +90,7 @@ std::vector<KittiBin> bins_of(const std::vector<KittiSegment>& segments,
 
 }  // namespace
 
-std::optional<KittiDrift> kitti_drift(Poses estimate, Poses reference,
+std::optional<KittiDrift> kitti_drift(const Poses& estimate, const Poses& reference,
                                       const KittiDriftOptions& options) {
   require_matched(estimate, reference);
   if (options.step == 0 || !(options.frame_seconds > 0)) {

@@ -1,24 +1,48 @@
 #include "traverse/evaluation/path_figures.hpp"
 
 #include "traverse/evaluation/relation.hpp"
-#include "traverse/geometry/trajectory.hpp"
 
 #include "require_matched.hpp"
 
 namespace traverse::evaluation {
 
-std::vector<double> accumulated_distances(std::span<const geometry::Pose3> poses) {
-  return geometry::Trajectory::unstamped({poses.begin(), poses.end()}).accumulated_distances();
+namespace {
+
+/// Calls `take` with the path length from the first pose to each.
+template <typename Take>
+void walk(const Poses& poses, Take take) {
+  double path_m = 0;
+  Eigen::Vector3d last;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Eigen::Vector3d here = poses[i].translation;
+    if (i > 0) path_m += (here - last).norm();
+    last = here;
+    take(path_m);
+  }
 }
 
-PathFigures path_figures(std::span<const geometry::Pose3> estimate,
-                         std::span<const geometry::Pose3> reference) {
+}  // namespace
+
+std::vector<double> accumulated_distances(const Poses& poses) {
+  std::vector<double> distances;
+  distances.reserve(poses.size());
+  walk(poses, [&](double path_m) { distances.push_back(path_m); });
+  return distances;
+}
+
+double path_length(const Poses& poses) {
+  double length_m = 0;
+  walk(poses, [&](double path_m) { length_m = path_m; });
+  return length_m;
+}
+
+PathFigures path_figures(const Poses& estimate, const Poses& reference) {
   require_matched(estimate, reference);
   const Motion estimated{estimate.front(), estimate.back()};
   const Motion travelled{reference.front(), reference.back()};
   PathFigures figures;
-  figures.estimate_m = accumulated_distances(estimate).back();
-  figures.reference_m = accumulated_distances(reference).back();
+  figures.estimate_m = path_length(estimate);
+  figures.reference_m = path_length(reference);
   figures.end_error_m = relative_error(estimated, travelled, Relation::kTranslation);
   figures.end_rotation_deg = relative_error(estimated, travelled, Relation::kAngleDeg);
   if (figures.reference_m > 0) {

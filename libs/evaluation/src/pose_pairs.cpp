@@ -16,7 +16,6 @@
 namespace traverse::evaluation {
 
 using geometry::Pose3;
-using Poses = std::span<const Pose3>;
 using Pairs = std::vector<IndexPair>;
 
 namespace {
@@ -30,17 +29,21 @@ double angle_between(const Pose3& a, const Pose3& b) {
 
 Pairs frame_pairs(std::size_t poses, std::size_t delta, std::size_t step) {
   Pairs pairs;
+  if (delta < poses) pairs.reserve((poses - delta + step - 1) / step);
   for (std::size_t i = 0; i < poses && delta < poses - i; i += step)
     pairs.push_back({i, i + delta});
   return pairs;
 }
 
-Pairs consecutive_path_pairs(Poses poses, double delta_m) {
+Pairs consecutive_path_pairs(const Poses& poses, double delta_m) {
   Pairs pairs;
   std::optional<std::size_t> recorded;
   double path_m = 0;
+  Eigen::Vector3d last = poses.empty() ? Eigen::Vector3d::Zero().eval() : poses[0].translation;
   for (std::size_t i = 1; i < poses.size(); ++i) {
-    path_m += (poses[i].translation - poses[i - 1].translation).norm();
+    const Eigen::Vector3d here = poses[i].translation;
+    path_m += (here - last).norm();
+    last = here;
     if (path_m < delta_m) continue;
     if (recorded) pairs.push_back({*recorded, i});
     recorded = i;
@@ -50,7 +53,7 @@ Pairs consecutive_path_pairs(Poses poses, double delta_m) {
 }
 
 /// Path lengths do not decrease, so the pose nearest to `delta_m` is found by bisection.
-Pairs all_path_pairs(Poses poses, double delta_m) {
+Pairs all_path_pairs(const Poses& poses, double delta_m) {
   Pairs pairs;
   const std::vector<double> path_m = accumulated_distances(poses);
   for (auto from = path_m.begin(); from != path_m.end() && from + 1 != path_m.end(); ++from) {
@@ -72,7 +75,7 @@ Pairs all_path_pairs(Poses poses, double delta_m) {
   return pairs;
 }
 
-Pairs consecutive_angle_pairs(Poses poses, double delta_rad) {
+Pairs consecutive_angle_pairs(const Poses& poses, double delta_rad) {
   Pairs pairs;
   std::size_t start = 0;
   double angle_rad = 0;
@@ -88,19 +91,22 @@ Pairs consecutive_angle_pairs(Poses poses, double delta_rad) {
 
 /// Every two poses are looked at; those whose trace(R_i^T R_j) = 1 + 2 cos(angle) is clearly
 /// outside cost nine products, only the others the exact angle.
-Pairs all_angle_pairs(Poses poses, double delta_rad) {
+Pairs all_angle_pairs(const Poses& poses, double delta_rad) {
   const double least_rad = delta_rad * (1 - kRelativeTolerance);
   const double most_rad = delta_rad * (1 + kRelativeTolerance);
   constexpr double kMargin = 0.05;  // the traces of matrices rounded to a few decimals are off
   const double most_trace = 1 + 2 * std::cos(least_rad) + kMargin;
   const double least_trace =
       most_rad < std::numbers::pi ? 1 + 2 * std::cos(most_rad) - kMargin : -1 - kMargin;
+  std::vector<Eigen::Matrix3d> rotations;
+  rotations.reserve(poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) rotations.push_back(poses[i].rotation);
   Pairs pairs;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    for (std::size_t j = i + 1; j < poses.size(); ++j) {
-      const double trace = poses[i].rotation.cwiseProduct(poses[j].rotation).sum();
+  for (std::size_t i = 0; i < rotations.size(); ++i) {
+    for (std::size_t j = i + 1; j < rotations.size(); ++j) {
+      const double trace = rotations[i].cwiseProduct(rotations[j]).sum();
       if (trace < least_trace || trace > most_trace) continue;
-      const double angle_rad = angle_between(poses[i], poses[j]);
+      const double angle_rad = geometry::angle_of(rotations[i].transpose() * rotations[j]);
       if (angle_rad >= least_rad && angle_rad <= most_rad) pairs.push_back({i, j});
     }
   }
@@ -143,7 +149,7 @@ std::string to_text(const Delta& delta) {
   return fmt::format("{} frame{}", delta.value, delta.value == 1 ? "" : "s");
 }
 
-Pairs select_pairs(Poses poses, const Delta& delta, bool all_pairs) {
+Pairs select_pairs(const Poses& poses, const Delta& delta, bool all_pairs) {
   if (!delta.is_valid()) throw std::invalid_argument("not a valid delta: " + to_text(delta));
   switch (delta.unit) {
     case DeltaUnit::kFrames: {

@@ -1,15 +1,13 @@
 #pragma once
 
-#include <span>
 #include <stdexcept>
 
-#include "traverse/geometry/pose3.hpp"
+#include "traverse/evaluation/poses.hpp"
 
 namespace traverse::evaluation {
 
-/// \throws std::invalid_argument unless the spans are of one size and not empty.
-inline void require_matched(std::span<const geometry::Pose3> estimate,
-                            std::span<const geometry::Pose3> reference) {
+/// \throws std::invalid_argument unless there are as many of both and not empty.
+inline void require_matched(const Poses& estimate, const Poses& reference) {
   if (estimate.size() != reference.size() || estimate.empty()) {
     throw std::invalid_argument("evaluation needs matched poses: two lists of one size, not empty");
   }

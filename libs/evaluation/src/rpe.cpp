@@ -14,12 +14,9 @@
 
 namespace traverse::evaluation {
 
-using geometry::Pose3;
-using Poses = std::span<const Pose3>;
-
 namespace {
 
-double accumulated_angle_deg(Poses poses) {
+double accumulated_angle_deg(const Poses& poses) {
   double angle_rad = 0;
   for (std::size_t i = 1; i < poses.size(); ++i) {
     angle_rad += geometry::angle_of(poses[i - 1].rotation.transpose() * poses[i].rotation);
@@ -28,14 +25,13 @@ double accumulated_angle_deg(Poses poses) {
 }
 
 /// What there is instead of a pair `delta` apart.
-std::string extent_text(Poses poses, const RpeOptions& options) {
+std::string extent_text(const Poses& poses, const RpeOptions& options) {
   const std::string_view whose = name_of(options.pairs_from);
   switch (options.delta.unit) {
     case DeltaUnit::kFrames:
       return fmt::format("there are {} matched poses", poses.size());
     case DeltaUnit::kMetres:
-      return fmt::format("the path of the {} is {:.4g} m long", whose,
-                         accumulated_distances(poses).back());
+      return fmt::format("the path of the {} is {:.4g} m long", whose, path_length(poses));
     case DeltaUnit::kDegrees:
     case DeltaUnit::kRadians:
       return fmt::format("the {} turns by {:.4g} deg in all", whose, accumulated_angle_deg(poses));
@@ -43,7 +39,7 @@ std::string extent_text(Poses poses, const RpeOptions& options) {
   return {};
 }
 
-bool has_motion(Poses reference, const IndexPair& pair) {
+bool has_motion(const Poses& reference, const IndexPair& pair) {
   return reference[pair.from].translation != reference[pair.to].translation;
 }
 
@@ -51,9 +47,10 @@ bool has_motion(Poses reference, const IndexPair& pair) {
 
 std::string_view name_of(PairsFrom source) { return name_in(kPairsFromNames, source); }
 
-std::vector<IndexPair> rpe_pairs(Poses estimate, Poses reference, const RpeOptions& options) {
+std::vector<IndexPair> rpe_pairs(const Poses& estimate, const Poses& reference,
+                                 const RpeOptions& options) {
   require_matched(estimate, reference);
-  const Poses poses = options.pairs_from == PairsFrom::kEstimate ? estimate : reference;
+  const Poses& poses = options.pairs_from == PairsFrom::kEstimate ? estimate : reference;
   std::vector<IndexPair> pairs = select_pairs(poses, options.delta, options.all_pairs);
   if (pairs.empty()) {
     throw EvaluationError(fmt::format("no {}pair of poses is {} apart: {}",
@@ -63,8 +60,8 @@ std::vector<IndexPair> rpe_pairs(Poses estimate, Poses reference, const RpeOptio
   return pairs;
 }
 
-Rpe rpe(Poses estimate, Poses reference, const RpeOptions& options, std::vector<IndexPair> pairs,
-        Relation relation) {
+Rpe rpe(const Poses& estimate, const Poses& reference, const RpeOptions& options,
+        std::vector<IndexPair> pairs, Relation relation) {
   require_matched(estimate, reference);
   Rpe result;
   result.options = options;
@@ -89,7 +86,8 @@ Rpe rpe(Poses estimate, Poses reference, const RpeOptions& options, std::vector<
   return result;
 }
 
-Rpe rpe(Poses estimate, Poses reference, const RpeOptions& options, Relation relation) {
+Rpe rpe(const Poses& estimate, const Poses& reference, const RpeOptions& options,
+        Relation relation) {
   return rpe(estimate, reference, options, rpe_pairs(estimate, reference, options), relation);
 }
 

@@ -1,4 +1,12 @@
 #include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <ostream>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -11,13 +19,54 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// An array with one member of each element.
-template <typename Elements, typename Member>
-Json column(const Elements& elements, Member member) {
-  Json array = Json::array();
-  for (const auto& element : elements) array.push_back(element.*member);
-  return array;
-}
+/// Turns an evaluation into JSON. Long arrays do not become JSON in memory, where a number takes
+/// twice its size and the text of all of them more: they are columns, in whose place the document
+/// has a binary value, which evaluations have none of, of the column's number.
+class Document {
+ public:
+  /// An array with what `value` tells of each element, which must outlive the document.
+  template <typename Element, typename Value>
+  Json column(const std::vector<Element>& elements, Value value) {
+    columns_.push_back([&elements, value](std::ostream& stream) {
+      constexpr std::size_t kAtOnce = 1024;
+      stream << '[';
+      for (std::size_t begin = 0; begin < elements.size(); begin += kAtOnce) {
+        Json part = Json::array();
+        for (std::size_t i = begin; i < std::min(begin + kAtOnce, elements.size()); ++i) {
+          part.push_back(std::invoke(value, elements[i]));
+        }
+        const std::string text = part.dump();
+        stream << (begin > 0 ? "," : "") << std::string_view(text).substr(1, text.size() - 2);
+      }
+      stream << ']';
+    });
+    return Json::binary({}, columns_.size() - 1);
+  }
+  Json column(const std::vector<double>& values) { return column(values, std::identity()); }
+
+  /// Objects over several lines, arrays of plain values on one: readable by eye and by `diff`.
+  void print(const Json& json, std::size_t indent, std::ostream& stream) const {
+    if (json.is_binary()) return columns_.at(json.get_binary().subtype())(stream);
+    const bool nested = std::any_of(json.begin(), json.end(),
+                                    [](const Json& child) { return child.is_structured(); });
+    if (json.empty() || !(json.is_object() || (json.is_array() && nested))) {
+      stream << json.dump(-1, ' ', false, Json::error_handler_t::replace);
+      return;
+    }
+    const std::string inner(indent + 2, ' ');
+    stream << (json.is_object() ? "{\n" : "[\n");
+    for (auto item = json.begin(); item != json.end(); ++item) {
+      if (item != json.begin()) stream << ",\n";
+      stream << inner;
+      if (json.is_object()) stream << Json(item.key()).dump() << ": ";
+      print(*item, indent + 2, stream);
+    }
+    stream << '\n' << std::string(indent, ' ') << (json.is_object() ? '}' : ']');
+  }
+
+ private:
+  std::vector<std::function<void(std::ostream&)>> columns_;
+};
 
 Json optional_number(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
@@ -38,16 +87,16 @@ Json json_of(const Statistics& s) {
           {"min", s.min},   {"max", s.max},   {"sse", s.sse},       {"count", s.count}};
 }
 
-Json association_json(const Comparison& comparison) {
+Json association_json(const Comparison& comparison, Document& document) {
   const Association& association = comparison.association;
   const bool by_stamp = association.mode == AssociationMode::kStamp;
   const Json per_pair = {
-      {"estimate", column(association.matches, &Match::estimate)},
-      {"reference", column(association.matches, &Match::reference)},
-      {"time_difference_s", column(association.matches, &Match::time_difference_s)},
-      {"stamp_ns",
-       by_stamp ? column(comparison.stamps, &geometry::Stamp::nanoseconds) : Json(nullptr)},
-      {"distance_m", comparison.distances_m}};
+      {"estimate", document.column(association.matches, &Match::estimate)},
+      {"reference", document.column(association.matches, &Match::reference)},
+      {"time_difference_s", document.column(association.matches, &Match::time_difference_s)},
+      {"stamp_ns", by_stamp ? document.column(comparison.stamps, &geometry::Stamp::nanoseconds)
+                            : Json(nullptr)},
+      {"distance_m", document.column(comparison.distances_m)}};
   return {{"by", name_of(association.mode)},
           {"pairs", association.matches.size()},
           {"max_time_difference", association.options.max_time_difference_s},
@@ -75,19 +124,19 @@ Json alignment_json(const Comparison& comparison) {
           {"how", describe(alignment, comparison.association.matches.size())}};
 }
 
-Json ape_json(const Comparison& comparison) {
+Json ape_json(const Comparison& comparison, Document& document) {
   Json by_relation = Json::object();
   for (const Ape& ape : comparison.ape) {
     Json entry = json_of(ape.statistics);
     entry["unit"] = unit_of(ape.relation);
     entry["how"] = title(ape, comparison);
-    entry["per_pair"] = {{"value", ape.values}};
+    entry["per_pair"] = {{"value", document.column(ape.values)}};
     by_relation[std::string(name_of(ape.relation))] = std::move(entry);
   }
   return by_relation;
 }
 
-Json rpe_json(const Comparison& comparison) {
+Json rpe_json(const Comparison& comparison, Document& document) {
   Json list = Json::array();
   for (const Rpe& rpe : comparison.rpe) {
     list.push_back({{"delta", rpe.options.delta.value},
@@ -100,9 +149,9 @@ Json rpe_json(const Comparison& comparison) {
                     {"dropped_without_motion", rpe.dropped_without_motion},
                     {"how", title(rpe, comparison)},
                     {"per_pair",
-                     {{"from", column(rpe.pairs, &IndexPair::from)},
-                      {"to", column(rpe.pairs, &IndexPair::to)},
-                      {"value", rpe.values}}}});
+                     {{"from", document.column(rpe.pairs, &IndexPair::from)},
+                      {"to", document.column(rpe.pairs, &IndexPair::to)},
+                      {"value", document.column(rpe.values)}}}});
   }
   return list;
 }
@@ -118,15 +167,15 @@ Json bins_json(const std::vector<KittiBin>& bins, const char* centre) {
   return list;
 }
 
-Json json_of(const KittiDrift& kitti) {
+Json json_of(const KittiDrift& kitti, Document& document) {
   const auto& segments = kitti.segments;
   const Json per_segment = {
-      {"first", column(segments, &KittiSegment::first)},
-      {"last", column(segments, &KittiSegment::last)},
-      {"length_m", column(segments, &KittiSegment::length_m)},
-      {"translation_percent", column(segments, &KittiSegment::translation_percent)},
-      {"rotation_deg_per_m", column(segments, &KittiSegment::rotation_deg_per_m)},
-      {"speed_mps", column(segments, &KittiSegment::speed_mps)}};
+      {"first", document.column(segments, &KittiSegment::first)},
+      {"last", document.column(segments, &KittiSegment::last)},
+      {"length_m", document.column(segments, &KittiSegment::length_m)},
+      {"translation_percent", document.column(segments, &KittiSegment::translation_percent)},
+      {"rotation_deg_per_m", document.column(segments, &KittiSegment::rotation_deg_per_m)},
+      {"speed_mps", document.column(segments, &KittiSegment::speed_mps)}};
   return {{"frame", kitti.frame},
           {"T_body_camera", kitti.T_body_camera ? json_of(*kitti.T_body_camera) : Json()},
           {"segments", segments.size()},
@@ -164,13 +213,13 @@ Json json_of(const Consistency& score) {
           {"how", title(score)},      {"point_to_plane", point_to_plane}};
 }
 
-void add_comparison(Json& json, const Comparison& comparison) {
+void add_comparison(Json& json, const Comparison& comparison, Document& document) {
   json["reference"] = json_of(comparison.reference);
-  json["association"] = association_json(comparison);
+  json["association"] = association_json(comparison, document);
   json["alignment"] = alignment_json(comparison);
-  json["ape"] = ape_json(comparison);
-  json["rpe"] = rpe_json(comparison);
-  json["kitti"] = comparison.kitti ? json_of(*comparison.kitti) : Json();
+  json["ape"] = ape_json(comparison, document);
+  json["rpe"] = rpe_json(comparison, document);
+  json["kitti"] = comparison.kitti ? json_of(*comparison.kitti, document) : Json();
   json["path"] = path_json(comparison);
 }
 
@@ -185,32 +234,14 @@ void add_no_comparison(Json& json, const TrajectoryFacts& estimate) {
       {"end_rotation_deg", nullptr},   {"how", "path of the whole estimate, no reference"}};
 }
 
-/// Objects over several lines, arrays of plain values on one: readable by eye and by `diff`.
-void print(const Json& json, std::size_t indent, std::string& text) {
-  const bool nested = std::any_of(json.begin(), json.end(),
-                                  [](const Json& child) { return child.is_structured(); });
-  if (json.empty() || !(json.is_object() || (json.is_array() && nested))) {
-    text += json.dump(-1, ' ', false, Json::error_handler_t::replace);
-    return;
-  }
-  const std::string inner(indent + 2, ' ');
-  text += json.is_object() ? "{\n" : "[\n";
-  for (auto item = json.begin(); item != json.end(); ++item) {
-    if (item != json.begin()) text += ",\n";
-    text += inner;
-    if (json.is_object()) text += Json(item.key()).dump() + ": ";
-    print(*item, indent + 2, text);
-  }
-  text += "\n" + std::string(indent, ' ') + (json.is_object() ? "}" : "]");
-}
-
 }  // namespace
 
-std::string to_json(const Evaluation& evaluation) {
+void write_json(const Evaluation& evaluation, std::ostream& stream) {
+  Document document;
   Json json;
   json["estimate"] = json_of(evaluation.estimate);
   if (evaluation.comparison) {
-    add_comparison(json, *evaluation.comparison);
+    add_comparison(json, *evaluation.comparison, document);
   } else {
     add_no_comparison(json, evaluation.estimate);
   }
@@ -222,9 +253,14 @@ std::string to_json(const Evaluation& evaluation) {
     }
   }
   json["undefined"] = std::move(undefined);
-  std::string text;
-  print(json, 0, text);
-  return text + "\n";
+  document.print(json, 0, stream);
+  stream << '\n';
+}
+
+std::string to_json(const Evaluation& evaluation) {
+  std::ostringstream stream;
+  write_json(evaluation, stream);
+  return std::move(stream).str();
 }
 
 }  // namespace traverse::evaluation

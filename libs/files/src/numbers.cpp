@@ -1,5 +1,6 @@
 #include "traverse/files/numbers.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <system_error>
@@ -39,15 +40,17 @@ std::string to_text(double value) {
   return {buffer.data(), end};
 }
 
-std::vector<std::string_view> split_words(std::string_view line) {
+std::vector<std::string_view> split_words(std::string_view line, std::size_t most) {
+  constexpr std::size_t kUsual = 12;  // of a pose or a point
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; };
   std::vector<std::string_view> words;
-  std::size_t begin = line.find_first_not_of(kBlanks);
-  while (begin != std::string_view::npos) {
-    const std::size_t end = line.find_first_of(kBlanks, begin);
-    words.push_back(line.substr(begin, end - begin));
-    begin = line.find_first_not_of(kBlanks, end);
+  words.reserve(std::min(kUsual, most));
+  for (auto at = line.begin();;) {
+    const auto begin = std::find_if_not(at, line.end(), is_blank);
+    if (begin == line.end() || words.size() >= most) return words;
+    at = std::find_if(begin, line.end(), is_blank);
+    words.emplace_back(begin, at);
   }
-  return words;
 }
 
 std::vector<std::string_view> split_cells(std::string_view line, char separator) {

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <fcntl.h>
 #include <string>
 #include <unistd.h>
 
@@ -30,8 +31,11 @@ std::string reason() { return errno == 0 ? "it is too short" : std::strerror(err
 }  // namespace
 
 ScratchFile::ScratchFile(const std::filesystem::path& folder) : folder_(folder) {
+  descriptor_ = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  if (descriptor_ >= 0) return;
+  // A file system without nameless files: for a moment there is a name.
   std::string name = (folder / ".scratch.XXXXXX").string();
-  descriptor_ = ::mkstemp(name.data());
+  descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
   if (descriptor_ < 0) throw OutputError(folder_, reason());
   ::unlink(name.c_str());
 }

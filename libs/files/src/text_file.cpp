@@ -1,7 +1,9 @@
 #include "traverse/files/text_file.hpp"
 
-#include <sstream>
+#include <array>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "open_for_reading.hpp"
 
@@ -10,9 +12,30 @@ namespace traverse::files {
 LineReader::LineReader(std::filesystem::path path)
     : path_(std::move(path)), stream_(open_for_reading(path_)) {}
 
+bool LineReader::take_line() {
+  line_.clear();
+  std::array<char, 4096> piece;
+  for (;;) {
+    stream_.getline(piece.data(), piece.size());
+    // Without a line's end among its characters: the piece is full, or the file is over.
+    const bool is_whole = stream_.good();
+    const auto taken = static_cast<std::size_t>(stream_.gcount()) - (is_whole ? 1 : 0);
+    line_.append(piece.data(), taken);
+    if (is_whole) break;
+    if (stream_.eof()) return taken > 0 || !line_.empty();
+    if (taken == 0) return false;  // a read error
+    stream_.clear();
+    if (line_.size() > kLongestLine) break;
+  }
+  return true;
+}
+
 bool LineReader::next() {
-  while (std::getline(stream_, line_)) {
+  while (take_line()) {
     ++number_;
+    if (line_.size() > kLongestLine) {
+      throw error(fmt::format("lines of at most {} bytes", kLongestLine), "a longer one");
+    }
     if (!line_.empty() && line_.back() == '\r') line_.pop_back();
     const std::size_t first = line_.find_first_not_of(" \t");
     if (first != std::string::npos && line_[first] != '#') return true;
@@ -30,9 +53,17 @@ InputError LineReader::error(std::string expected) const {
 
 std::string read_text(const std::filesystem::path& path) {
   std::ifstream stream = open_for_reading(path);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return std::move(text).str();
+  std::string text;
+  std::array<char, 1 << 16> piece;
+  while (stream) {
+    stream.read(piece.data(), piece.size());
+    text.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > kMostBytesAtOnce) {
+      throw InputError(path, Place::whole_file(),
+                       fmt::format("a text of at most {} bytes", kMostBytesAtOnce), "a longer one");
+    }
+  }
+  return text;
 }
 
 }  // namespace traverse::files

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::int64_t kPerSecond = 1'000'000'000;
 constexpr double kLargestSeconds = 9.2e9;  // of what 64 bits hold, the year 2261
+constexpr std::int64_t kFarthest = 9'200'000'000 * kPerSecond;
 
 std::optional<Stamp> parse_as_double(std::string_view text) {
   double seconds = 0;
@@ -24,6 +25,9 @@ std::optional<Stamp> parse_as_double(std::string_view text) {
 }  // namespace
 
 Stamp Stamp::from_seconds(double seconds) {
+  if (std::isnan(seconds)) return {};
+  if (seconds >= kLargestSeconds) return {kFarthest};
+  if (seconds <= -kLargestSeconds) return {-kFarthest};
   // Whole seconds apart, so that the product with 1e9 does not lose the last digits.
   const double whole = std::floor(seconds);
   return {static_cast<std::int64_t>(whole) * kPerSecond +
@@ -39,14 +43,22 @@ double seconds_between(Stamp earlier, Stamp later) {
 }
 
 Stamp shifted(Stamp stamp, double seconds) {
-  return {stamp.nanoseconds + static_cast<std::int64_t>(std::llround(seconds * 1e9))};
+  if (std::isnan(seconds)) return stamp;
+  const std::int64_t farthest = std::signbit(seconds) ? -kFarthest : kFarthest;
+  if (std::abs(seconds) >= kLargestSeconds) return {farthest};
+  const auto by = static_cast<std::int64_t>(std::llround(seconds * 1e9));
+  std::int64_t nanoseconds = 0;
+  if (__builtin_add_overflow(stamp.nanoseconds, by, &nanoseconds)) return {farthest};
+  return {nanoseconds};
 }
 
 std::string to_text(Stamp stamp) {
   const bool negative = stamp.nanoseconds < 0;
-  const std::int64_t magnitude = negative ? -stamp.nanoseconds : stamp.nanoseconds;
-  return fmt::format("{}{}.{:09d}", negative ? "-" : "", magnitude / kPerSecond,
-                     magnitude % kPerSecond);
+  // Unsigned, because the least of 64 bits has no opposite.
+  const auto bits = static_cast<std::uint64_t>(stamp.nanoseconds);
+  const std::uint64_t magnitude = negative ? std::uint64_t{0} - bits : bits;
+  return fmt::format("{}{}.{:09d}", negative ? "-" : "", magnitude / std::uint64_t{kPerSecond},
+                     magnitude % std::uint64_t{kPerSecond});
 }
 
 std::optional<Stamp> parse_stamp_seconds(std::string_view text) {

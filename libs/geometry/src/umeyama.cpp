@@ -8,24 +8,33 @@ namespace traverse::geometry {
 
 Similarity umeyama(std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> y,
                    bool with_scale) {
-  if (x.empty() || x.size() != y.size()) {
-    throw std::invalid_argument("alignment needs two point sets of one size, not empty");
+  if (x.size() != y.size()) {
+    throw std::invalid_argument("alignment needs two point sets of one size");
   }
-  const auto n = static_cast<double>(x.size());
+  return umeyama(
+      x.size(), [&](std::size_t i) { return x[i]; }, [&](std::size_t i) { return y[i]; },
+      with_scale);
+}
+
+Similarity umeyama(std::size_t count, const std::function<Eigen::Vector3d(std::size_t)>& x,
+                   const std::function<Eigen::Vector3d(std::size_t)>& y, bool with_scale) {
+  if (count == 0) throw std::invalid_argument("alignment needs points");
+  const auto n = static_cast<double>(count);
   Eigen::Vector3d mean_x = Eigen::Vector3d::Zero();
   Eigen::Vector3d mean_y = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    mean_x += x[i];
-    mean_y += y[i];
+  for (std::size_t i = 0; i < count; ++i) {
+    mean_x += x(i);
+    mean_y += y(i);
   }
   mean_x /= n;
   mean_y /= n;
 
   double variance_x = 0;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    variance_x += (x[i] - mean_x).squaredNorm();
-    covariance += (y[i] - mean_y) * (x[i] - mean_x).transpose();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d from_mean = x(i) - mean_x;
+    variance_x += from_mean.squaredNorm();
+    covariance += (y(i) - mean_y) * from_mean.transpose();
   }
   variance_x /= n;
   covariance /= n;

@@ -1,5 +1,6 @@
 #include "imu_link.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "traverse/geometry/so3.hpp"
@@ -35,6 +36,7 @@ ImuLink::Step ImuLink::add(const ImuSample& sample, const NavState& newest,
   constexpr double kGap = 0.06;     // s; longer is not a rate that an IMU has
   constexpr double kGapNoise = 30;  // what happened in it is hardly known
   constexpr double kPiece = 0.01;
+  constexpr double kMostPieces = 1e5;  // of a quarter of an hour; a clock may be centuries off
   const double seconds = seconds_between(last_->stamp, sample.stamp);
   const Eigen::Vector3d rate = 0.5 * (last_->angular_rate + sample.angular_rate);
   // The later reading is in axes that have turned: brought back, the mean is the trapezoidal rule
@@ -44,7 +46,8 @@ ImuLink::Step ImuLink::add(const ImuSample& sample, const NavState& newest,
       0.5 * (last_->specific_force + geometry::exp_so3(turn) * sample.specific_force);
   Step step;
   step.is_gap = seconds > kGap;
-  const int pieces = step.is_gap ? static_cast<int>(std::ceil(seconds / kPiece)) : 1;
+  const int pieces =
+      step.is_gap ? static_cast<int>(std::min(std::ceil(seconds / kPiece), kMostPieces)) : 1;
   for (int k = 0; k < pieces; ++k) {
     imu_->add(rate, force, seconds / pieces, step.is_gap ? kGapNoise : 1);
   }

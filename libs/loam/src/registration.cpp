@@ -10,6 +10,7 @@
 #include <ceres/solver.h>
 
 #include "traverse/optimization/rotation_manifold.hpp"
+#include "traverse/optimization/solution.hpp"
 
 #include "match_observability.hpp"
 #include "point_motion.hpp"
@@ -109,10 +110,9 @@ SolveResult solve_pose(const Matches& matches, const geometry::Pose3& guess_T_ma
   solver.max_num_iterations = options.iterations;
   solver.num_threads = 1;  // a fixed order of summation: the same bits on every machine load
   solver.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver, &problem, &summary);
-  result.iterations = static_cast<int>(summary.iterations.size()) - 1;
-  if (!summary.IsSolutionUsable()) return result;
+  const optimization::Solution solution = optimization::solve(solver, problem);
+  result.iterations = solution.iterations;
+  if (!solution.is_usable) return result;
 
   const geometry::Pose3 solved = blocks.pose();
   result.observability = observability(matches, solved, options.least_eigenvalue);

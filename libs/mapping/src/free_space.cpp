@@ -79,7 +79,7 @@ struct FreeSpace::Content {
 void bind(config::Binder& b, FreeSpaceOptions& o) {
   using config::Range;
   b.number("voxel_m", o.voxel_m, Range::between(0.02, 10), "edge of the cubes that are judged");
-  b.number("most_range_m", o.most_range_m, Range::positive(),
+  b.number("most_range_m", o.most_range_m, Range::between(0.1, 1000),
            "keyframes farther away do not judge");
   b.number("ray_radius_m", o.ray_radius_m, Range::positive(),
            "a ray that passes so near sees through, or hits");

@@ -1,5 +1,13 @@
 #include "traverse/mapping/map_folder.hpp"
 
+#include <fstream>
+#include <set>
+#include <system_error>
+
+#include <nlohmann/json.hpp>
+
+#include "traverse/files/atomic_file.hpp"
+#include "traverse/files/input_error.hpp"
 #include "traverse/mapping/keyframe_map.hpp"
 #include "traverse/mapping/map_origin.hpp"
 
@@ -9,6 +17,10 @@ namespace traverse::mapping {
 
 namespace {
 
+namespace fs = std::filesystem;
+
+constexpr const char* kWrittenBy = "traverse map";
+
 KeyframeMap simple_map_of(const std::vector<MapKeyframe>& keyframes, const MapFolder& folder) {
   KeyframeMapOptions as_they_are;
   as_they_are.voxel_m = 0.01;  // thinned when they were made
@@ -17,7 +29,65 @@ KeyframeMap simple_map_of(const std::vector<MapKeyframe>& keyframes, const MapFo
   return map;
 }
 
+/// Every file that is in the folder of a new map.
+std::set<std::string> names_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    names.insert(entry.path().filename().string());
+  }
+  return names;
+}
+
+void write_record(const MapFolder& folder, const MapSummary& summary) {
+  const nlohmann::ordered_json json{{"written_by", kWrittenBy},
+                                    {"keyframes", summary.keyframes},
+                                    {"points", summary.points},
+                                    {"removed_points", summary.removed_points},
+                                    {"files", names_in(folder.path)}};
+  files::write_text(folder.record(), json.dump(1) + "\n");
+}
+
+/// What the record lists; nothing if it is not one.
+std::set<std::string> recorded_names(const fs::path& record) {
+  std::ifstream stream(record);
+  const auto json = nlohmann::json::parse(stream, nullptr, /*allow_exceptions=*/false);
+  std::set<std::string> names;
+  if (!json.is_object() || !json.contains("files") || !json["files"].is_array() ||
+      json.value("written_by", nlohmann::json()) != kWrittenBy) {
+    return names;
+  }
+  names.insert(record.filename().string());
+  for (const auto& name : json["files"]) {
+    if (name.is_string()) names.insert(name.get<std::string>());
+  }
+  return names;
+}
+
 }  // namespace
+
+std::vector<std::string> files_of_earlier_map(const MapFolder& folder) {
+  std::error_code failure;
+  if (!fs::exists(folder.path, failure)) return {};
+  if (!fs::is_directory(folder.path, failure)) {
+    throw files::OutputError(folder.path, "it is not a folder");
+  }
+  const std::set<std::string> recorded = recorded_names(folder.record());
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder.path)) {
+    const std::string name = entry.path().filename().string();
+    if (!recorded.contains(name)) {
+      throw files::OutputError(
+          folder.path, recorded.empty()
+                           ? "it is no map that this program wrote (it has no map.json), and " +
+                                 files::in_quotes(name) + " is in it. Choose another folder"
+                           : files::in_quotes(name) +
+                                 " is in it, which is no part of the map there. Move it away, or "
+                                 "choose another folder");
+    }
+    names.push_back(name);
+  }
+  return names;
+}
 
 void bind(config::Binder& b, MapOptions& o) {
   b.number("voxel_m", o.voxel_m, config::Range::between(0.005, 10),
@@ -58,6 +128,7 @@ MapSummary write_map(const MapFolder& folder, std::vector<MapKeyframe> keyframes
     summary.grid_rows = grid.rows();
     tell("occupancy grid", 1);
   }
+  write_record(folder, summary);
   return summary;
 }
 

@@ -76,12 +76,13 @@ void MapKeyframe::keep_only(const std::vector<char>& keep) {
 std::vector<MapKeyframe> read_simple_map(const std::filesystem::path& file) {
   std::vector<MapKeyframe> keyframes;
   std::size_t points = 0;
-  mrpt_io::for_each_keyframe(file, [&](std::size_t, const auto& pose, const auto& frame) {
+  mrpt_io::for_each_keyframe(file, [&](std::size_t i, const auto& pose, const auto& frame) {
     MapKeyframe& keyframe = keyframes.emplace_back();
     keyframe.T_map_body = mrpt_io::to_pose(pose.getMeanVal()).orthonormalised();
     for (const auto& observation : frame) {
       if (is_part_of_map(frame, *observation)) append(*observation, keyframe);
     }
+    mrpt_io::require_points_in_sight(file, i, keyframe.x, keyframe.y, keyframe.z);
     mrpt_io::PointAttributes attributes = mrpt_io::attributes_of(frame, keyframe.size());
     keyframe.time = std::move(attributes.time);
     keyframe.ring = std::move(attributes.ring);

@@ -76,7 +76,10 @@ class Merger {
                         covariance_of(0.05, 0.1), pose_graph::EdgeKind::kLoop);
     }
     tell("pose graph", 0);
-    graph.optimise();
+    const pose_graph::Result result = graph.optimise();
+    if (!result.is_usable) {
+      throw std::runtime_error("the pose graph of the runs could not be solved: " + result.message);
+    }
     tell("pose graph", 1);
     for (std::size_t l = 0; l < links_.size(); ++l) {
       links_[l].what.weight = graph.edges()[edge_of_link[l]].weight;

@@ -20,7 +20,8 @@ using files::Place;
 namespace {
 
 constexpr unsigned int kZlibBuffer = 1 << 18;
-constexpr std::size_t kKeptBack = 1 << 20;  // damage that shows later than this is not caught
+constexpr std::size_t kKeptBack = 1 << 20;      // damage that shows later than this is not caught
+constexpr std::uint64_t kMostGzipRatio = 1032;  // a bit stands for 258 bytes at most, two for each
 constexpr const char* kCutShort = "the file is cut short";
 constexpr std::size_t kPiece = 1 << 16;
 constexpr std::size_t kMostAtOnce = 1 << 30;  // zlib counts in int
@@ -36,7 +37,10 @@ std::string fault_of(gzFile_s* file) {
 }  // namespace
 
 GzInput::GzInput(std::filesystem::path path)
-    : path_(std::move(path)), file_(nullptr, nullptr), buffer_(4 * kKeptBack) {
+    : path_(std::move(path)),
+      file_(nullptr, nullptr),
+      buffer_(4 * kKeptBack),
+      ahead_file_(nullptr, nullptr) {
   errno = 0;
   file_ = {::gzopen(path_.c_str(), "rb"), close_quietly};
   if (!file_) throw InputError(path_, Place::whole_file(), "a readable file", std::strerror(errno));
@@ -115,6 +119,23 @@ void GzInput::go_to(std::uint64_t position) {
     at_end_ = true;
     fault_ = fault_of(file_.get());
   }
+}
+
+bool GzInput::reaches(std::uint64_t end) {
+  const std::uint64_t buffered = position_ + (end_ - begin_);
+  if (end <= std::max(buffered, known_until_)) return true;
+  if (at_end_) return false;
+  if (::gzdirect(file_.get()) != 0) return end <= file_size_;
+  if (end - buffered > kMostGzipRatio * file_size_) return false;
+  if (!ahead_file_) ahead_file_ = {::gzopen(path_.c_str(), "rb"), close_quietly};
+  if (!ahead_file_) return false;
+  std::vector<char> piece(kPiece);
+  while (known_until_ < end) {
+    const int got = ::gzread(ahead_file_.get(), piece.data(), static_cast<unsigned>(piece.size()));
+    if (got <= 0) return false;
+    known_until_ += static_cast<std::uint64_t>(got);
+  }
+  return true;
 }
 
 std::size_t GzInput::Write(const void*, std::size_t) {

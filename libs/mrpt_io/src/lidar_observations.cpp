@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,7 +15,10 @@
 #include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/obs/VelodyneCalibration.h>
 
+#include "traverse/mrpt_io/gz_stream.hpp"
 #include "traverse/mrpt_io/mrpt_values.hpp"
+
+#include "allocation_guard.hpp"
 
 namespace traverse::mrpt_io {
 
@@ -77,6 +84,25 @@ float seconds_after(mrpt::Clock::time_point stamp, mrpt::Clock::time_point time)
   return static_cast<float>(static_cast<double>(ticks) * 1e-7);
 }
 
+/// Takes no more memory than the external file holds, whatever it states.
+void load_guarded(const CObservationPointCloud& observation, const std::string& external_folder) {
+  std::optional<GzInput> file;
+  AllocationGuard guard([&](std::uint64_t count) {
+    if (!file) {
+      file.emplace(std::filesystem::path(external_folder) / observation.getExternalStorageFile());
+    }
+    return file->reaches(count);
+  });
+  try {
+    observation.load();
+  } catch (const std::exception&) {
+    if (const std::string refusal = guard.refusal(); !refusal.empty()) {
+      throw std::runtime_error(refusal);
+    }
+    throw;
+  }
+}
+
 /// A 2-D scanner's or a range image's columns.
 struct Columns {
   std::size_t count = 0;
@@ -121,7 +147,7 @@ LidarScan take_scan(CObservationVelodyneScan& observation) {
 LidarScan take_scan(CObservationPointCloud& observation, const std::string& external_folder) {
   mrpt::io::setLazyLoadPathBase(external_folder);  // one for the whole program, so set each time
   try {
-    observation.load();
+    load_guarded(observation, external_folder);
   } catch (const std::exception& error) {
     throw UnusableObservation("external point cloud cannot be loaded: " + message_of(error));
   }

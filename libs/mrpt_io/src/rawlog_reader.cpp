@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <new>
 
 #include <fmt/format.h>
 #include <mrpt/rtti/CObject.h>
@@ -10,6 +9,8 @@
 
 #include "traverse/files/input_error.hpp"
 #include "traverse/mrpt_io/mrpt_values.hpp"
+
+#include "allocation_guard.hpp"
 
 namespace traverse::mrpt_io {
 
@@ -91,6 +92,8 @@ std::optional<RawlogRecord> RawlogReader::next() {
   if (mrpt::rtti::findRegisteredClass(*class_name) == nullptr) {
     return stop(fmt::format("a record of the class {}, which MRPT does not know here", short_name));
   }
+  AllocationGuard guard(
+      [this](std::uint64_t bytes) { return stream_.reaches(record_begin_ + bytes); });
   try {
     stream_.expect_counts_up_to(holds_only_counts(short_name) ? std::optional(kMostCounted)
                                                               : std::nullopt);
@@ -98,9 +101,10 @@ std::optional<RawlogRecord> RawlogReader::next() {
     RawlogRecord record{archive.ReadObject(), short_name, place()};
     ++records_;
     return record;
-  } catch (const std::bad_alloc&) {
-    return stop(fmt::format("a record of the class {} is damaged", short_name));
   } catch (const std::exception&) {
+    if (const std::string refusal = guard.refusal(); !refusal.empty()) {
+      return stop(fmt::format("a record of the class {} is damaged: {}", short_name, refusal));
+    }
     // MRPT's own message is "EOF" whatever happened; the stream knows whether the bytes ran out.
     return stop(
         !stream_.fault().empty()

@@ -1,8 +1,11 @@
 #include "traverse/mrpt_io/simple_map_file.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <exception>
+#include <string>
 
+#include <fmt/format.h>
 #include <mrpt/maps/CSimpleMap.h>
 
 #include "traverse/files/atomic_file.hpp"
@@ -10,12 +13,16 @@
 #include "traverse/mrpt_io/gz_stream.hpp"
 #include "traverse/mrpt_io/mrpt_values.hpp"
 
+#include "allocation_guard.hpp"
+
 namespace traverse::mrpt_io {
 
 namespace {
 
 constexpr int kCompression = 1;  // as MRPT's
 constexpr std::uint8_t kPosesOfSpace = 1;
+constexpr double kFarthest_m = 1e9;  // from the origin of the map: nothing drives there
+constexpr float kSight_m = 1e5;
 
 // To MRPT's archives both classes are the map they are derived from: they add no run-time type and
 // only say otherwise what stands between a map's head and its end.
@@ -66,6 +73,7 @@ class TakenOneByOne final : public mrpt::maps::CSimpleMap {
 
  private:
   void take(const mrpt::poses::CPose3DPDF& pose, const mrpt::obs::CSensoryFrame& frame) {
+    const AllocationGuard::Pause pause;
     try {
       take_(taken_++, pose, frame);
     } catch (...) {
@@ -78,6 +86,15 @@ class TakenOneByOne final : public mrpt::maps::CSimpleMap {
   std::size_t taken_ = 0;
   std::exception_ptr error_;
 };
+
+void require_place(const std::filesystem::path& file, std::size_t record,
+                   const mrpt::poses::CPose3DPDF& pose) {
+  const geometry::Pose3 T = to_pose(pose.getMeanVal());
+  if (T.translation.cwiseAbs().maxCoeff() <= kFarthest_m && T.rotation.allFinite()) return;
+  throw files::InputError(file, files::Place::record(record),
+                          fmt::format("a pose within {:.0e} m", kFarthest_m),
+                          "one farther off, or no numbers");
+}
 
 }  // namespace
 
@@ -101,16 +118,38 @@ std::size_t for_each_keyframe(
     const std::function<void(std::size_t i, const mrpt::poses::CPose3DPDF& pose,
                              const mrpt::obs::CSensoryFrame& frame)>& take) {
   GzInput stream(file);
-  TakenOneByOne map(take);
+  const TakenOneByOne::Take take_checked = [&](std::size_t i, const auto& pose, const auto& frame) {
+    require_place(file, i, pose);
+    take(i, pose, frame);
+  };
+  TakenOneByOne map(take_checked);
+  AllocationGuard guard([&](std::uint64_t bytes) { return stream.reaches(bytes); });
   try {
     auto archive = mrpt::serialization::archiveFrom(stream);
     archive.ReadObject(&map);
   } catch (const std::exception& error) {
     if (map.error()) std::rethrow_exception(map.error());
+    if (const std::string refusal = guard.refusal(); !refusal.empty()) {
+      throw files::InputError(file, files::Place::whole_file(), "a simple map of MRPT",
+                              "a damaged one: " + refusal);
+    }
     throw files::InputError(file, files::Place::whole_file(), "a simple map of MRPT",
                             stream.fault().empty() ? message_of(error) : stream.fault());
   }
   return map.taken();
+}
+
+void require_points_in_sight(const std::filesystem::path& file, std::size_t record,
+                             std::span<const float> x, std::span<const float> y,
+                             std::span<const float> z) {
+  for (const auto& axis : {x, y, z}) {
+    for (const float value : axis) {
+      if (std::abs(value) <= kSight_m) continue;
+      throw files::InputError(file, files::Place::record(record),
+                              fmt::format("points within {:.0f} km", kSight_m / 1000),
+                              fmt::format("{} m", value));
+    }
+  }
 }
 
 }  // namespace traverse::mrpt_io

@@ -1,10 +1,10 @@
-#include <algorithm>
-#include <cmath>
+#include <cstdint>
 #include <limits>
-#include <stdexcept>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
+#include "traverse/files/json_document.hpp"
 #include "traverse/optimization/jacobian_audit.hpp"
 
 namespace traverse::optimization {
@@ -12,10 +12,7 @@ namespace traverse::optimization {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double number(const Json& json) {
-  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
-}
+using files::JsonValue;
 
 Json to_json(const JacobianDifference& difference) {
   return {{"absolute", difference.absolute},
@@ -23,8 +20,9 @@ Json to_json(const JacobianDifference& difference) {
           {"worst_state", difference.worst_state}};
 }
 
-JacobianDifference difference_from(const Json& json) {
-  return {number(json.at("absolute")), number(json.at("relative")), json.at("worst_state")};
+JacobianDifference difference_from(const JsonValue& json) {
+  return {json["absolute"].number_or_nan(), json["relative"].number_or_nan(),
+          json["worst_state"].count()};
 }
 
 Json to_json(const FactorAudit& factor) {
@@ -45,26 +43,28 @@ Json to_json(const FactorAudit& factor) {
           {"blocks", std::move(blocks)}};
 }
 
-Perturbation perturbation_from(const Json& json) {
-  const std::string name = json;
+Perturbation perturbation_from(const JsonValue& json) {
+  const std::string name = json.text();
   for (const auto& [known, value] : kPerturbationNames) {
     if (known == name) return value;
   }
-  throw std::runtime_error("no perturbation is called '" + name + "'");
+  throw json.error("left or right");
 }
 
-FactorAudit factor_from(const Json& json) {
+FactorAudit factor_from(const JsonValue& json) {
   FactorAudit factor;
-  factor.factor = json.at("factor");
-  factor.formula = json.at("formula");
-  factor.perturbation = perturbation_from(json.at("perturbation"));
-  factor.passed = json.at("passed");
-  factor.least_residual = number(json.at("least_residual"));
-  factor.value_difference = number(json.at("value_difference"));
-  for (const Json& block : json.at("blocks")) {
-    factor.blocks.push_back({block.at("block"), number(block.at("largest_entry")),
-                             difference_from(block.at("automatic")),
-                             difference_from(block.at("numeric")), block.at("passed")});
+  factor.factor = json["factor"].text();
+  factor.formula = json["formula"].text();
+  factor.perturbation = perturbation_from(json["perturbation"]);
+  factor.passed = json["passed"].boolean();
+  factor.least_residual = json["least_residual"].number_or_nan();
+  factor.value_difference = json["value_difference"].number_or_nan();
+  const JsonValue blocks = json["blocks"];
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const JsonValue block = blocks[i];
+    factor.blocks.push_back({block["block"].text(), block["largest_entry"].number_or_nan(),
+                             difference_from(block["automatic"]), difference_from(block["numeric"]),
+                             block["passed"].boolean()});
   }
   return factor;
 }
@@ -85,17 +85,19 @@ std::string to_json(const JacobianAudit& audit) {
   return json.dump(1) + "\n";
 }
 
-JacobianAudit audit_from_json(const std::string& text) {
-  try {
-    const Json json = Json::parse(text);
-    JacobianAudit audit;
-    audit.options = {json.at("states"), json.at("seed"), json.at("least_residual"),
-                     json.at("tolerance").at("automatic"), json.at("tolerance").at("numeric")};
-    for (const Json& factor : json.at("factors")) audit.factors.push_back(factor_from(factor));
-    return audit;
-  } catch (const Json::exception& error) {
-    throw std::runtime_error(error.what());
-  }
+JacobianAudit audit_from_json(const JsonValue& json) {
+  JacobianAudit audit;
+  audit.options.states = json["states"].count();
+  const std::size_t seed = json["seed"].count();
+  if (seed > std::numeric_limits<std::uint32_t>::max())
+    throw json["seed"].error("a seed of 32 bits");
+  audit.options.seed = static_cast<std::uint32_t>(seed);
+  audit.options.least_residual = json["least_residual"].number();
+  audit.options.automatic_tolerance = json["tolerance"]["automatic"].number();
+  audit.options.numeric_tolerance = json["tolerance"]["numeric"].number();
+  const JsonValue factors = json["factors"];
+  for (std::size_t i = 0; i < factors.size(); ++i) audit.factors.push_back(factor_from(factors[i]));
+  return audit;
 }
 
 }  // namespace traverse::optimization

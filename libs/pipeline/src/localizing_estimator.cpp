@@ -11,6 +11,7 @@
 
 #include "traverse/files/input_error.hpp"
 #include "traverse/geometry/so3.hpp"
+#include "traverse/pipeline/run_keyframes.hpp"
 
 namespace traverse::pipeline {
 
@@ -48,7 +49,7 @@ LocalizingEstimator::LocalizingEstimator(std::unique_ptr<LidarEstimator> odometr
     : odometry_(std::move(odometry)),
       map_file_(options.map),
       maker_(checks.keyframes, *odometry_->sensor().lidar),
-      localizer_(slam::read_keyframes(options.map), checks, options.search),
+      localizer_(read_localization_map(options.map), checks, options.search),
       columns_(odometry_->columns()) {
   columns_.insert(columns_.end(), {"located", "fits_map", "map_in_common", "map_residual_rms_m",
                                    "map_keyframe", "localize_ms"});

@@ -4,7 +4,9 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <new>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <variant>
@@ -32,12 +34,38 @@ namespace traverse::pipeline {
 
 namespace {
 
+/// Does one thing after the other. Of what fails the first is kept in mind, and the rest is done
+/// all the same: each may be worth having without the others.
+class Steps {
+ public:
+  template <typename Step>
+  void operator()(const Step& step) {
+    try {
+      step();
+    } catch (const std::bad_alloc&) {
+      note("out of memory: the system gave no more");
+    } catch (const std::exception& error) {
+      note(error.what());
+    }
+  }
+  void note(const std::string& reason) {
+    if (reason_.empty()) reason_ = reason;
+  }
+  bool has_failed() const { return !reason_.empty(); }
+  const std::string& reason() const { return reason_; }
+
+ private:
+  std::string reason_;
+};
+
+bool is_stopped(const RunObserver& observer) { return observer.stop != nullptr && *observer.stop; }
+
 /// Thrown through the reading loop when the user stops the run.
 class Stopped : public std::exception {};
 
-/// Reads, estimates and collects. \returns whether the user stopped it.
-bool estimate_all(dataset::Source& source, Estimator& estimator, const RunOptions& options,
-                  const RunObserver& observer, RunResults& results) {
+/// Reads, estimates and collects, to the end or as far as it goes.
+void estimate_all(dataset::Source& source, Estimator& estimator, const RunOptions& options,
+                  const RunObserver& observer, RunResults& results, Steps& attempt) {
   WaitingScans waiting;
   std::size_t done = 0;
   const auto collect = [&](const std::vector<PoseFrame>& frames) {
@@ -46,19 +74,18 @@ bool estimate_all(dataset::Source& source, Estimator& estimator, const RunOption
       observer.frame(++done);
     }
   };
-  bool stopped = false;
-  try {
-    dataset::for_each_in_slice(source, {"", options.first, options.last},
-                               [&](const sensors::Measurement& measurement) {
-                                 if (observer.stop != nullptr && *observer.stop) throw Stopped();
-                                 waiting.add(measurement);
-                                 collect(estimator.process(measurement));
-                               });
-  } catch (const Stopped&) {
-    stopped = true;
-  }
-  collect(estimator.finish());
-  return stopped;
+  attempt([&] {
+    try {
+      dataset::for_each_in_slice(source, {"", options.first, options.last},
+                                 [&](const sensors::Measurement& measurement) {
+                                   if (is_stopped(observer)) throw Stopped();
+                                   waiting.add(measurement);
+                                   collect(estimator.process(measurement));
+                                 });
+    } catch (const Stopped&) {  // NOLINT(bugprone-empty-catch): what is done is collected below
+    }
+  });
+  attempt([&] { collect(estimator.finish()); });
 }
 
 dataset::PointCloud to_point_cloud(const UsedScan& scan) {
@@ -92,6 +119,12 @@ evaluation::Evaluation evaluate_trajectory(const dataset::Source& source,
   return evaluation::evaluate(trajectory);
 }
 
+void write_evaluation(const std::filesystem::path& file, const evaluation::Evaluation& evaluation) {
+  files::AtomicFile output(file);
+  evaluation::write_json(evaluation, output.stream());
+  output.commit();
+}
+
 /// Accuracy against the reference if there is one, and the sharpness of the map in any case; how
 /// the worst frames were registered; accuracy of odometry alone if loops were closed over it.
 void evaluate_run(const dataset::Source& source, RunResults& results, const RunFolder& folder,
@@ -102,14 +135,14 @@ void evaluate_run(const dataset::Source& source, RunResults& results, const RunF
                        *source.reference()->north_map;
   }
   evaluation.consistency = results.consistency();
-  files::write_text(folder.evaluation(), evaluation::to_json(evaluation));
+  write_evaluation(folder.evaluation(), evaluation);
   const dataset::PointCloud worst_frames = results.worst_frames(
       evaluation::worst_segments(evaluation, results.frames().column("residual_rms_m")));
   if (worst_frames.size() > 0) dataset::write_ply(folder.worst_frames(), worst_frames);
   if (!results.odometry()) return;
   evaluation = evaluate_trajectory(source, *results.odometry(), record);
   evaluation.consistency = results.odometry_consistency();
-  files::write_text(folder.odometry_evaluation(), evaluation::to_json(evaluation));
+  write_evaluation(folder.odometry_evaluation(), evaluation);
 }
 
 /// The Jacobians of the factors that the estimator solves with, checked in this very program.
@@ -131,22 +164,36 @@ void fill_results(const RunResults& results, RunRecord& record) {
 }
 
 void write_results(const dataset::Source& source, const RunResults& results,
-                   const RunFolder& folder) {
-  dataset::write_tum(folder.trajectory(), results.trajectory());
-  if (source.reference()) dataset::write_tum(folder.reference(), source.reference()->T_map_body);
-  if (results.odometry()) dataset::write_tum(folder.odometry(), *results.odometry());
-  results.frames().write_csv(folder.frames());
-  if (results.map().size() > 0) {
-    results.map().write_ply(folder.map_points());
-    results.keyframes().write(folder.simple_map());
-  }
-  if (!results.sample().x.empty()) {
-    dataset::write_ply(folder.sample_scan(), to_point_cloud(results.sample()));
-  }
+                   const RunFolder& folder, Steps& attempt) {
+  attempt([&] { dataset::write_tum(folder.trajectory(), results.trajectory()); });
+  attempt([&] { results.frames().write_csv(folder.frames()); });
+  attempt([&] {
+    if (source.reference()) dataset::write_tum(folder.reference(), source.reference()->T_map_body);
+  });
+  attempt([&] {
+    if (results.odometry()) dataset::write_tum(folder.odometry(), *results.odometry());
+  });
+  attempt([&] {
+    if (results.map().size() > 0) results.map().write_ply(folder.map_points());
+  });
+  attempt([&] {
+    if (results.map().size() > 0) results.keyframes().write(folder.simple_map());
+  });
+  attempt([&] {
+    if (!results.sample().x.empty()) {
+      dataset::write_ply(folder.sample_scan(), to_point_cloud(results.sample()));
+    }
+  });
 }
 
-void write_record(const RunFolder& folder, const RunRecord& record) {
-  files::write_text(folder.record(), to_json(record, build_info(), host_info()));
+/// What loops have taught: nothing is written where there are none for the frames to go by.
+void write_slam(const Estimator& estimator, const RunFolder& folder) {
+  const auto slam_map = estimator.slam_map();
+  if (!slam_map) return;
+  slam::write_loops(folder.loops(), slam_map->slam().loops());
+  slam::write_keyframes(folder.keyframes(), slam_map->slam().keyframes(),
+                        [&](std::size_t k) { return slam_map->optimised(k); });
+  if (slam_map->origin()) mapping::write_map_origin(folder.origin(), *slam_map->origin());
 }
 
 RunRecord begin_record(const dataset::Source& source, const Pipeline& pipeline,
@@ -174,63 +221,59 @@ RunRecord begin_record(const dataset::Source& source, const Pipeline& pipeline,
 RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& folder,
               const RunOptions& options, const RunObserver& observer) {
   const auto started = std::chrono::steady_clock::now();
+  Estimator& estimator = *pipeline.estimator;
   RunRecord record = begin_record(source, pipeline, options);
-  const auto close_record = [&] {
-    record.recording = source.info();  // a rawlog's rig is known only after reading
-    record.skipped = source.skipped();
-    record.peak_memory_mb = peak_memory_mb();
-    record.wall_seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-    write_record(folder, record);
-  };
   folder.prepare();
-  bool stopped_at_once = false;
-  try {
-    RunResults results(*pipeline.estimator, source.info(), options, folder);
-    pipeline.estimator->spill_to(folder.path);
-    const bool stopped = estimate_all(source, *pipeline.estimator, options, observer, results);
-    record.decisions = pipeline.estimator->decisions();  // some are made on the way
-    record.north_map = pipeline.estimator->north_map();
-    record.frames_read = results.frames().rows().size() + source.skipped().total();
-    if (results.frames().rows().empty()) {
-      stopped_at_once = stopped;
-      throw std::runtime_error(source.info().path.string() + ": no frame was estimated: " +
-                               (stopped
-                                    ? "stopped by the user before the first one"
-                                    : "the recording has no usable scan in the range asked for"));
-    }
+  Steps attempt;
+  std::optional<RunResults> results;
+  estimator.spill_to(folder.path);
+  attempt([&] { results.emplace(estimator, source.info(), options, folder); });
+  if (results) estimate_all(source, estimator, options, observer, *results, attempt);
+  bool stopped = is_stopped(observer);
+  attempt([&] {
+    record.decisions = estimator.decisions();  // some are made on the way
+    record.north_map = estimator.north_map();
+  });
+  const bool has_frames = results && !results->frames().rows().empty();
+  if (has_frames) {
     observer.stage("maps and trajectory");
-    results.correct();
-    fill_results(results, record);
-    write_results(source, results, folder);
-    if (const auto slam_map = pipeline.estimator->slam_map()) {
-      slam::write_loops(folder.loops(), slam_map->slam().loops());
-      slam::write_keyframes(folder.keyframes(), slam_map->slam().keyframes(),
-                            [&](std::size_t k) { return slam_map->optimised(k); });
-      if (slam_map->origin()) mapping::write_map_origin(folder.origin(), *slam_map->origin());
-    }
+    attempt([&] { results->correct(); });
+    fill_results(*results, record);
+    write_results(source, *results, folder, attempt);
+    // Without the poses of odometry beside them there was no way to learn from loops.
+    if (results->odometry()) attempt([&] { write_slam(estimator, folder); });
     observer.stage("evaluation");
-    evaluate_run(source, results, folder, record);
-    check_jacobians(*pipeline.estimator, folder);
-    if (options.hash_recording) {
+    attempt([&] { evaluate_run(source, *results, folder, record); });
+    attempt([&] { check_jacobians(estimator, folder); });
+    stopped = is_stopped(observer);
+    if (options.hash_recording && !stopped && !attempt.has_failed()) {
       observer.stage("digest of the recording");
-      const files::ContentId id = files::content_id(source.info().path);
-      record.recording_bytes = id.bytes;
-      record.recording_sha256 = id.sha256;
+      attempt([&] {
+        const files::ContentId id = files::content_id(source.info().path);
+        record.recording_bytes = id.bytes;
+        record.recording_sha256 = id.sha256;
+      });
     }
-    record.status = stopped ? RunStatus::kInterrupted : RunStatus::kOk;
-    record.reason = stopped ? "stopped by the user" : "";
-  } catch (const std::exception& error) {
-    record.status = stopped_at_once ? RunStatus::kInterrupted : RunStatus::kFailed;
-    record.reason = error.what();
-    try {
-      close_record();
-    } catch (const std::exception&) {
-      // The folder cannot be written either; the first error is the one to tell.
-    }
-    throw;
+  } else if (!attempt.has_failed() && !stopped) {
+    attempt.note(source.info().path.string() +
+                 ": no frame was estimated: the recording has no usable scan in the range asked "
+                 "for");
   }
-  close_record();
+  if (stopped && (!attempt.has_failed() || !has_frames)) {
+    record.status = RunStatus::kInterrupted;
+    record.reason =
+        has_frames ? "stopped by the user" : "stopped by the user before the first frame";
+  } else {
+    record.status = attempt.has_failed() ? RunStatus::kFailed : RunStatus::kOk;
+    record.reason = attempt.reason();
+  }
+  record.recording = source.info();  // a rawlog's rig is known only after reading
+  record.skipped = source.skipped();
+  record.frames_read = record.frames_used + record.skipped.total();
+  record.peak_memory_mb = peak_memory_mb();
+  record.wall_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  write_record(folder, record);
   return record;
 }
 

@@ -8,8 +8,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "traverse/files/atomic_file.hpp"
 #include "traverse/files/digest.hpp"
 #include "traverse/pipeline/frame_table.hpp"
+#include "traverse/pipeline/run_folder.hpp"
 #include "traverse/statistics/quantile.hpp"
 
 namespace traverse::pipeline {
@@ -181,6 +183,10 @@ std::string to_json(const RunRecord& record, const BuildInfo& build, const HostI
   json["wall_seconds"] = record.wall_seconds;
   json["peak_memory_mb"] = record.peak_memory_mb;
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_record(const RunFolder& folder, const RunRecord& record) {
+  files::write_text(folder.record(), to_json(record, build_info(), host_info()));
 }
 
 }  // namespace traverse::pipeline

@@ -127,6 +127,7 @@ std::vector<PoseFrame> SlamEstimator::close_loops(std::vector<PoseFrame> frames)
 
 void SlamEstimator::take(const sensors::GnssFix& fix) {
   if (receiver_.empty() || fix.sensor != receiver_) return;
+  if (!std::isfinite(fix.latitude_deg) || !std::isfinite(fix.longitude_deg)) return;
   // Fixes before the first keyframe have nothing to hold.
   if (slam_.keyframes().size() > 0) fixes_.push_back(fix);
 }
@@ -138,8 +139,9 @@ void SlamEstimator::place_fixes(const lidar::Frame& frame) {
     const sensors::GnssFix fix = fixes_.front();
     fixes_.pop_front();
     if (!last_frame_ || fix.stamp < last_frame_->stamp) continue;
-    const double share = geometry::seconds_between(last_frame_->stamp, fix.stamp) /
-                         geometry::seconds_between(last_frame_->stamp, frame.stamp);
+    const double seconds = geometry::seconds_between(last_frame_->stamp, frame.stamp);
+    const double share =  // of frames of one stamp the later
+        seconds > 0 ? geometry::seconds_between(last_frame_->stamp, fix.stamp) / seconds : 1;
     place(fix, geometry::interpolate(last_frame_->T_map_lidar, frame.T_map_lidar, share));
   }
   last_frame_ = frame;
@@ -197,6 +199,12 @@ std::vector<Decision> SlamEstimator::decisions() const {
   decisions.push_back(
       {"loops", fmt::format("{} of {} candidates accepted, {} keyframes", slam_.accepted_loops(),
                             slam_.loops().size(), slam_.keyframes().size())});
+  if (!slam_.failure().empty()) {
+    decisions.push_back(
+        {"pose graph",
+         fmt::format("could not be solved, its poses are those of {}: {}",
+                     slam_.is_corrected() ? "the solution before" : "odometry", slam_.failure())});
+  }
   if (gravity_) decisions.push_back({"gravity", gravity_note()});
   if (!gnss_note_.empty()) decisions.push_back({"fixes", gnss_note_});
   if (slam_.graph().is_georeferenced()) {

@@ -80,16 +80,16 @@ double GraphProblem::widest() const {
   return widening;
 }
 
-ceres::Solver::Summary GraphProblem::stage(double widening, int steps) {
+optimization::Solution GraphProblem::stage(double widening, int steps) {
   return solve(widening, steps, kTriesAStep * steps,
                std::min(kHardlyDamped, kLessDamped * radius_));
 }
 
-ceres::Solver::Summary GraphProblem::finish(int iterations) {
+optimization::Solution GraphProblem::finish(int iterations) {
   return solve(1, iterations, iterations, kHardlyDamped);
 }
 
-ceres::Solver::Summary GraphProblem::solve(double widening, int steps, int iterations,
+optimization::Solution GraphProblem::solve(double widening, int steps, int iterations,
                                            double radius) {
   loop_loss_.widen(widening);
   fix_loss_.widen(widening);
@@ -105,10 +105,9 @@ ceres::Solver::Summary GraphProblem::solve(double widening, int steps, int itera
   solver.logging_type = ceres::SILENT;
   StepLimit limit(steps);
   solver.callbacks.push_back(&limit);
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver, &problem_, &summary);
-  radius_ = summary.iterations.back().trust_region_radius;
-  return summary;
+  optimization::Solution solution = optimization::solve(solver, problem_);
+  radius_ = solution.trust_region_radius.value_or(radius_);
+  return solution;
 }
 
 bool GraphProblem::take_in_or_leave_out() {

@@ -10,6 +10,7 @@
 #include <ceres/sphere_manifold.h>
 
 #include "traverse/optimization/rotation_manifold.hpp"
+#include "traverse/optimization/solution.hpp"
 
 #include "graph_parts.hpp"
 #include "pose_costs.hpp"
@@ -28,10 +29,11 @@ class GraphProblem {
   /// have their full weight at the present poses.
   double widest() const;
 
-  /// Moves the poses by up to so many steps that lessen the cost with that bound.
-  ceres::Solver::Summary stage(double widening, int steps);
+  /// Moves the poses by up to so many steps that lessen the cost with that bound. Where that
+  /// fails, here and below, they stay.
+  optimization::Solution stage(double widening, int steps);
   /// Moves them with the final bound until they stay, or for so many iterations.
-  ceres::Solver::Summary finish(int iterations);
+  optimization::Solution finish(int iterations);
 
   /// By the present poses and bound; whether that changed anything.
   bool take_in_or_leave_out();
@@ -62,7 +64,7 @@ class GraphProblem {
     double chi2() const;
   };
 
-  ceres::Solver::Summary solve(double widening, int steps, int iterations, double radius);
+  optimization::Solution solve(double widening, int steps, int iterations, double radius);
   PoseBlocks& at(NodeId node) { return poses_[graph_.index_of.at(node)]; }
   void add(PoseBlocks& pose);
   void add(const Edge& edge, bool is_doubted);

@@ -101,10 +101,12 @@ void PoseGraph::add_gravity(NodeId i, const Eigen::Vector3d& up_body, double sig
 Result PoseGraph::optimise(Start start) {
   Result result;
   if (ids_.empty()) {
+    result.is_usable = true;
     result.converged = true;
     result.message = "there is no node";
     return result;
   }
+  PoseGraph before = *this;
   if (start == Start::kGuesses) forget_solution();
   if (!is_georeferenced_) {
     find_up();
@@ -119,11 +121,16 @@ Result PoseGraph::optimise(Start start) {
   const GraphParts parts{edges_, fixes_, levels_, index_of_, is_georeferenced_};
   result = solve(parts, std::move(doubts), options_, {poses_, up_map_, up_offset_});
   result.initial_cost = initial_cost;
-  result.final_cost = evaluate();
-  solved_nodes_ = ids_.size();
-  judged_edges_ = edges_.size();
-  judged_fixes_ = is_georeferenced_ ? fixes_.size() : 0;
-  judged_levels_ = levels_.size();
+  if (result.is_usable) {
+    result.final_cost = evaluate();
+    solved_nodes_ = ids_.size();
+    judged_edges_ = edges_.size();
+    judged_fixes_ = is_georeferenced_ ? fixes_.size() : 0;
+    judged_levels_ = levels_.size();
+  } else {
+    result.final_cost = initial_cost;
+    *this = std::move(before);
+  }
 
   const auto is_rejected = [](const auto& measured) { return measured.is_rejected(); };
   const auto count = [](const auto& list, const auto& condition) {

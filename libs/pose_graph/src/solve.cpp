@@ -15,9 +15,9 @@ namespace {
 // Chi-squares beyond the bound by this factor are looked at before they are believed.
 constexpr double kFar = 100;
 
-void count(const ceres::Solver::Summary& summary, Result& result) {
+void count(const optimization::Solution& solution, Result& result) {
   ++result.stages;
-  result.iterations += static_cast<int>(summary.iterations.size()) - 1;
+  result.iterations += solution.iterations;
 }
 
 /// Graduated non-convexity: the bound shrinks, each stage goes on from the solution before. As long
@@ -25,7 +25,9 @@ void count(const ceres::Solver::Summary& summary, Result& result) {
 void graduate(GraphProblem& problem, const GraphOptions& options, Result& result) {
   double widening = problem.widest();
   while (widening > 1) {
-    count(problem.stage(widening, options.steps_a_stage), result);
+    const optimization::Solution solution = problem.stage(widening, options.steps_a_stage);
+    count(solution, result);
+    if (!solution.is_usable) return;
     widening = std::min(widening / options.graduation, problem.widest());
   }
 }
@@ -62,14 +64,16 @@ Result solve(const GraphParts& graph, Doubts doubts, const GraphOptions& options
       static_cast<std::size_t>(std::count(doubts.edges.begin(), doubts.edges.end(), true));
   GraphProblem problem(graph, doubts, options, state);
   if (options.robust) graduate(problem, options, result);
-  ceres::Solver::Summary summary;
+  optimization::Solution solution;
   do {
-    summary = problem.finish(options.most_iterations);
-    count(summary, result);
-  } while (problem.take_in_or_leave_out() && result.iterations < 4 * options.most_iterations);
-  result.converged = summary.termination_type == ceres::CONVERGENCE;
-  result.message = summary.message;
-  problem.take_solution(state);
+    solution = problem.finish(options.most_iterations);
+    count(solution, result);
+  } while (solution.is_usable && problem.take_in_or_leave_out() &&
+           result.iterations < 4 * options.most_iterations);
+  result.is_usable = solution.is_usable;
+  result.converged = solution.converged;
+  result.message = std::move(solution.message);
+  if (result.is_usable) problem.take_solution(state);
   return result;
 }
 

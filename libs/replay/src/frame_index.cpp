@@ -9,8 +9,7 @@
 
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/digest.hpp"
-#include "traverse/files/input_error.hpp"
-#include "traverse/files/text_file.hpp"
+#include "traverse/files/json_document.hpp"
 
 #include "frame_sensor.hpp"
 
@@ -21,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr int kVersion = 1;
+constexpr std::size_t kVersion = 1;
 constexpr std::uintmax_t kPieces = 64;
 constexpr std::uintmax_t kPieceBytes = 64 << 10;
 
@@ -94,22 +93,22 @@ std::string quick_digest(const fs::path& file) {
 std::optional<FrameIndex> load_index(const fs::path& file, const std::string& digest,
                                      const std::string& frame_sensor) {
   try {
-    const Json json = Json::parse(files::read_text(file));
-    if (json.at("version") != kVersion || json.at("digest") != digest ||
-        json.at("frame_sensor") != frame_sensor) {
+    const auto document = files::JsonDocument::read(file);
+    const files::JsonValue json = document.root();
+    if (json["version"].count() != kVersion || json["digest"].text() != digest ||
+        json["frame_sensor"].text() != frame_sensor) {
       return std::nullopt;
     }
     FrameIndex index;
-    for (const Json& stamp : json.at("frames")) index.frames.push_back({stamp.get<std::int64_t>()});
-    for (const Json& entry : json.at("skipped")) {
-      index.skipped.push_back(
-          {entry.at("reason"), entry.at("count"), entry.at("first_behind_frames")});
+    for (const std::int64_t stamp : json["frames"].integers()) index.frames.push_back({stamp});
+    const files::JsonValue skipped = json["skipped"];
+    for (std::size_t i = 0; i < skipped.size(); ++i) {
+      index.skipped.push_back({skipped[i]["reason"].text(), skipped[i]["count"].count(),
+                               skipped[i]["first_behind_frames"].count()});
     }
     return index;
-  } catch (const Json::exception&) {
-    return std::nullopt;  // not one of ours, or of another version: it is made again
   } catch (const files::InputError&) {
-    return std::nullopt;
+    return std::nullopt;  // not one of ours, or of another version: it is made again
   }
 }
 

@@ -1,8 +1,8 @@
 #include "traverse/replay/recording.hpp"
 
+#include <string>
 #include <utility>
 
-#include "traverse/dataset/trajectory_files.hpp"
 #include "traverse/files/input_error.hpp"
 
 #include "frame_sensor.hpp"
@@ -31,7 +31,9 @@ Recording Recording::open(const fs::path& file_or_run, const dataset::OpenOption
   recording.options_ = options;
   const pipeline::RunFolder folder{file_or_run};
   if (fs::exists(folder.record())) {
-    recording.run_ = Run{folder, read_run_facts(folder)};
+    auto contents = std::make_shared<const pipeline::RunContents>(
+        pipeline::read_run(folder, pipeline::RunPart::kReference));
+    recording.run_ = Run{contents, run_facts(*contents)};
     const RunFacts& facts = recording.run_->facts;
     recording.path_ = moved_to.empty() ? facts.recording : moved_to;
     recording.most_frames_ = facts.first_frame + facts.frames;
@@ -46,10 +48,9 @@ Recording Recording::open(const fs::path& file_or_run, const dataset::OpenOption
   const auto source = recording.source();
   recording.info_ = source->info();
   recording.reference_ = source->reference();
-  if (recording.run_ && fs::exists(folder.reference())) {
-    recording.reference_ = dataset::Reference{
-        dataset::read_trajectory(folder.reference(), dataset::TrajectoryFormat::kTum),
-        folder.reference(), "of the run"};
+  if (recording.run_ && recording.run_->contents->reference) {
+    recording.reference_ =
+        dataset::Reference{*recording.run_->contents->reference, folder.reference(), "of the run"};
   }
   recording.frame_sensor_ = replay::frame_sensor(recording.info_.rig);
   return recording;
@@ -68,14 +69,26 @@ pipeline::Pipeline Recording::make_pipeline(const pipeline::PresetRequest& reque
     pipeline.estimator = std::make_unique<PathEstimator>(frame_sensor_);
     return pipeline;
   }
-  const auto preset =
-      pipeline::load_preset(run_ ? run_->facts.preset : request, options_.share_folder);
-  pipeline = pipeline::make_pipeline(preset, info_, threads);
-  if (run_) {
-    pipeline.name += " (as run)";
-    pipeline.estimator = make_run_estimator(run_->folder, std::move(pipeline.estimator));
+  if (!run_) {
+    const auto preset = pipeline::load_preset(request, options_.share_folder);
+    return pipeline::make_pipeline(preset, info_, threads);
   }
+  pipeline = pipeline_of_run(*run_, threads);
+  pipeline.name += " (as run)";
+  pipeline.estimator = make_run_estimator(*run_->contents, std::move(pipeline.estimator));
   return pipeline;
+}
+
+pipeline::Pipeline Recording::pipeline_of_run(const Run& run, int threads) const {
+  try {
+    const auto preset = pipeline::load_preset(run.facts.preset, options_.share_folder);
+    return pipeline::make_pipeline(preset, info_, threads);
+  } catch (const files::InputError& error) {
+    throw files::InputError(
+        run.contents->folder.record(), files::Place::key("configuration"),
+        "settings that this program knows",
+        std::string(error.what()) + "; `traverse run` again writes the folder anew");
+  }
 }
 
 }  // namespace traverse::replay

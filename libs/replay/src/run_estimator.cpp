@@ -1,21 +1,12 @@
 #include "traverse/replay/run_estimator.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <utility>
 
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
-#include "traverse/dataset/trajectory_files.hpp"
-#include "traverse/files/input_error.hpp"
-#include "traverse/files/text_file.hpp"
-#include "traverse/pipeline/frame_table.hpp"
+#include "traverse/files/json_document.hpp"
 
 namespace traverse::replay {
 
-using files::InputError;
-using files::Place;
 using pipeline::PoseFrame;
 
 namespace {
@@ -74,41 +65,28 @@ void fill_velocities(std::vector<PoseFrame>& frames) {
 
 }  // namespace
 
-RunFacts read_run_facts(const pipeline::RunFolder& folder) {
-  const std::string text = files::read_text(folder.record());
-  try {
-    const auto json = nlohmann::json::parse(text);
-    RunFacts facts;
-    facts.recording = json.at("recording").at("path").get<std::string>();
-    facts.command = json.at("command").get<std::vector<std::string>>();
-    facts.first_frame = json.at("frames").at("first").get<std::size_t>();
-    facts.frames = json.at("frames").at("used").get<std::size_t>();
-    facts.preset.name = json.at("pipeline").get<std::string>();
-    for (const auto& setting : json.at("configuration").at("settings")) {
-      if (!setting.at("changed").get<bool>()) continue;
-      facts.preset.assignments.push_back(setting.at("key").get<std::string>() + "=" +
-                                         setting.at("value").dump());
-    }
-    return facts;
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(folder.record(), Place::whole_file(), "the record of a run", error.what());
+RunFacts run_facts(const pipeline::RunContents& run) {
+  const auto document = files::JsonDocument::parse(run.record_json, run.folder.record());
+  const files::JsonValue record = document.root();
+  RunFacts facts;
+  facts.recording = record["recording"]["path"].text();
+  facts.command = record["command"].texts();
+  facts.first_frame = record["frames"]["first"].count();
+  facts.frames = run.frames.rows().size();
+  facts.preset.name = record["pipeline"].text();
+  const files::JsonValue settings = record["configuration"]["settings"];
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    const files::JsonValue setting = settings[i];
+    if (!setting["changed"].boolean()) continue;
+    facts.preset.assignments.push_back(setting["key"].text() + "=" + setting["value"].json_text());
   }
+  return facts;
 }
 
 std::unique_ptr<pipeline::Estimator> make_run_estimator(
-    const pipeline::RunFolder& folder, std::unique_ptr<pipeline::Estimator> estimator) {
-  const auto trajectory =
-      dataset::read_trajectory(folder.trajectory(), dataset::TrajectoryFormat::kTum);
-  const auto table = pipeline::FrameTable::read_csv(folder.frames());
-  const bool fits = table.rows().size() == trajectory.size() && table.columns().size() >= 3 &&
-                    table.has("frame") && table.has("total_ms");
-  if (!fits) {
-    throw InputError(folder.frames(), Place::whole_file(),
-                     fmt::format("one row for each of the {} poses of trajectory.tum, with frame, "
-                                 "stamp_s and total_ms",
-                                 trajectory.size()),
-                     fmt::format("{} rows", table.rows().size()));
-  }
+    const pipeline::RunContents& contents, std::unique_ptr<pipeline::Estimator> estimator) {
+  const pipeline::FrameTable& table = contents.frames;
+  const geometry::Trajectory& trajectory = contents.estimate;
   auto run = std::make_shared<RunFrames>();
   // Frame and stamp come first and the total last: what is between is the estimator's record.
   run->columns.assign(table.columns().begin() + 2, table.columns().end() - 1);

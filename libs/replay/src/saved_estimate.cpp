@@ -32,11 +32,14 @@ dataset::PointCloud cloud_of(const MapHistory& map, std::size_t size) {
 std::size_t save_estimate(const std::filesystem::path& folder, const geometry::Trajectory& estimate,
                           const MapHistory& map,
                           const std::optional<dataset::Reference>& reference) {
-  files::make_writable_folder(folder);
-  dataset::write_tum(folder / "trajectory.tum", estimate);
-  if (reference) dataset::write_tum(folder / "reference.tum", reference->T_map_body);
+  if (folder.has_parent_path()) files::make_writable_folder(folder.parent_path());
+  files::AtomicFolder made(folder);
+  const std::filesystem::path& place = made.temporary_path();
+  dataset::write_tum(place / "trajectory.tum", estimate);
+  if (reference) dataset::write_tum(place / "reference.tum", reference->T_map_body);
   const std::size_t points = map.size_at(estimate.size());
-  dataset::write_ply(folder / "map.ply", cloud_of(map, points));
+  dataset::write_ply(place / "map.ply", cloud_of(map, points));
+  made.commit();
   return points;
 }
 

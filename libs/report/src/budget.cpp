@@ -80,7 +80,7 @@ void require_valid_budget(const std::filesystem::path& budget) { check_figures(b
 
 BudgetResult check_budget(const std::filesystem::path& budget,
                           const std::filesystem::path& run_folder) {
-  return check_figures(budget, run_figures(read_run(run_folder)));
+  return check_figures(budget, run_figures(read_run(run_folder, pipeline::RunPart::kFigures)));
 }
 
 BudgetResult check_budget(const std::filesystem::path& budget,

@@ -9,7 +9,7 @@
 
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
-#include "traverse/pipeline/run_folder.hpp"
+#include "traverse/files/text_file.hpp"
 #include "traverse/render/pictures/trajectory_from_above.hpp"
 #include "traverse/render/renderer.hpp"
 
@@ -38,9 +38,8 @@ void require_same_recording(const ComparedRun& baseline, const ComparedRun& run)
   const bool same = both_hashed ? identity(baseline.data) == identity(run.data)
                                 : baseline.data.recording_name() == run.data.recording_name();
   if (same) return;
-  throw files::InputError(pipeline::RunFolder{run.data.folder}.record(),
-                          files::Place::key("recording"),
-                          "a run of the recording of " + baseline.data.folder.string() + ", " +
+  throw files::InputError(run.data.folder.record(), files::Place::key("recording"),
+                          "a run of the recording of " + baseline.data.folder.path.string() + ", " +
                               baseline.data.recording_name(),
                           run.data.recording_name());
 }
@@ -55,7 +54,7 @@ std::vector<ComparedRun> read_runs(const std::vector<fs::path>& folders) {
              (other.has_filename() ? other : other.parent_path()).filename() == plain.filename();
     });
     if (taken) name = plain.string();
-    ComparedRun run{std::move(name), read_run(folder), {}};
+    ComparedRun run{std::move(name), read_run(folder, pipeline::RunPart::kFigures), {}};
     run.figures = run_figures(run.data);
     runs.push_back(std::move(run));
     require_same_recording(runs.front(), runs.back());
@@ -168,11 +167,32 @@ std::string terminal_table(const Json& table) {
   return text + "\n";
 }
 
+/// The page and its numbers are replaced only where an earlier comparison stands.
+void require_own(const fs::path& page, const fs::path& numbers) {
+  std::error_code failure;
+  if (fs::is_regular_file(page, failure)) {
+    const std::string text = files::read_text(page);
+    const auto generator = text.find("name=\"generator\" content=\"Traverse");
+    if (generator != std::string::npos) return;
+    throw files::OutputError(page,
+                             "it is there already and no page of this program. Choose another name "
+                             "with -o");
+  }
+  if (fs::is_regular_file(numbers, failure)) {
+    throw files::OutputError(numbers,
+                             "it is there already, without a page of this program beside "
+                             "it. Choose another name with -o");
+  }
+}
+
 }  // namespace
 
 std::string write_comparison(const std::vector<fs::path>& folders, const fs::path& page,
                              const fs::path& templates, const CompareOptions& options) {
   if (folders.size() < 2) throw std::invalid_argument("a comparison needs two runs or more");
+  fs::path numbers = page;
+  numbers.replace_extension(".json");
+  require_own(page, numbers);
   const std::vector<ComparedRun> runs = read_runs(folders);
   Model model;
   model.json["schema"] = "traverse/comparison/1";
@@ -185,7 +205,7 @@ std::string write_comparison(const std::vector<fs::path>& folders, const fs::pat
   Json names = Json::array();
   for (const ComparedRun& run : runs) {
     names.push_back({{"name", run.name},
-                     {"folder", run.data.folder.string()},
+                     {"folder", run.data.folder.path.string()},
                      {"pipeline", run.data.pipeline_name()}});
   }
   model.json["runs"] = std::move(names);
@@ -202,11 +222,11 @@ std::string write_comparison(const std::vector<fs::path>& folders, const fs::pat
   model.page.set("overlay_dark", dark);
   model.page.set("report_json", text_for_script(model.json));
 
-  fs::path numbers = page;
-  numbers.replace_extension(".json");
-  files::write_text(numbers, text_for_script(model.json) + "\n");
-  files::write_text(page, render_page(model.page, "compare",
-                                      {"dygraphs", "moment", "charts", "tables"}, templates));
+  files::AtomicFiles output;
+  output.write(numbers, text_for_script(model.json) + "\n");
+  output.write(page, render_page(model.page, "compare",
+                                 {"dygraphs", "moment", "charts", "csv", "tables"}, templates));
+  output.commit();
   std::string text;
   for (const char* id : {"figures", "differences", "wins"}) {
     text += terminal_table(model.json["tables"][id]);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "traverse/files/atomic_file.hpp"
+#include "traverse/files/csv.hpp"
+#include "traverse/files/latex.hpp"
 
 #include "number_text.hpp"
 
@@ -12,60 +14,13 @@ namespace {
 
 std::string csv_cell(const Json& value) {
   if (value.is_null()) return {};
-  if (!value.is_string()) return value.dump();
-  const auto text = value.get<std::string>();
-  if (text.find_first_of("\",\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + "\"";
-}
-
-std::string latex_text(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-      case '%':
-      case '$':
-      case '#':
-      case '_':
-      case '{':
-      case '}':
-        escaped += '\\';
-        escaped += c;
-        break;
-      case '\\':
-        escaped += "\\textbackslash{}";
-        break;
-      case '~':
-        escaped += "\\textasciitilde{}";
-        break;
-      case '^':
-        escaped += "\\textasciicircum{}";
-        break;
-      case '<':
-        escaped += "\\textless{}";
-        break;
-      case '>':
-        escaped += "\\textgreater{}";
-        break;
-      case '\n':
-        escaped += ' ';
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
+  return value.is_string() ? files::csv_cell(value.get<std::string>()) : value.dump();
 }
 
 std::string latex_cell(const Json& value) {
   if (value.is_null()) return "--";
   if (value.is_number_integer()) return value.dump();
-  if (value.is_string()) return latex_text(value);
+  if (value.is_string()) return files::latex_text(value.get<std::string>());
   std::string number = short_number(value);
   constexpr std::string_view kTrueMinus = "\u2212";
   if (number.starts_with(kTrueMinus)) number = "$-$" + number.substr(kTrueMinus.size());

@@ -1,10 +1,11 @@
 #include "figure_maker.hpp"
 
 #include <memory>
+#include <stdexcept>
+#include <utility>
 #include <variant>
 
 #include "traverse/files/atomic_file.hpp"
-#include "traverse/pipeline/run_folder.hpp"
 #include "traverse/render/vector_file.hpp"
 
 #include "data_uri.hpp"
@@ -21,10 +22,12 @@ render::Style of_width(render::Style style, int width) {
 
 }  // namespace
 
-FigureMaker::FigureMaker(const RunData& run, const RunReportOptions& options)
+FigureMaker::FigureMaker(const RunData& run, const RunReportOptions& options,
+                         std::filesystem::path images)
     : run_(run),
       picture_drawn_(options.picture_drawn),
-      images_(pipeline::RunFolder{run.folder}.images()) {
+      stop_(options.stop),
+      images_(std::move(images)) {
   files::make_writable_folder(images_);
   light_ = of_width(light_, options.picture_width);
   dark_ = light_;
@@ -52,6 +55,11 @@ render::Style FigureMaker::sized(render::Style style, double share) {
 }
 
 std::size_t FigureMaker::begin(Figure figure) {
+  if (stop_ != nullptr && *stop_) throw ReportStopped("the report was stopped by the user");
+  if (!pipeline::RunFolder::is_picture(figure.name + ".png")) {
+    // It would be taken for somebody's own file, which runs that come later leave there for ever.
+    throw std::logic_error("no name of a run's pictures: " + figure.name);
+  }
   const parallel::Lock lock(figures_mutex_);
   figures_.push_back(std::move(figure));
   return figures_.size() - 1;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -23,7 +24,8 @@ namespace traverse::report {
 /// compressed and written by other threads.
 class FigureMaker {
  public:
-  FigureMaker(const RunData& run, const RunReportOptions& options);
+  /// \param images folder for the pictures
+  FigureMaker(const RunData& run, const RunReportOptions& options, std::filesystem::path images);
   ~FigureMaker();
   FigureMaker(const FigureMaker&) = delete;
   FigureMaker& operator=(const FigureMaker&) = delete;
@@ -54,6 +56,7 @@ class FigureMaker {
 
  private:
   static render::Style sized(render::Style style, double share);
+  /// \throws ReportStopped
   std::size_t begin(Figure figure);
   void finish(const render::Drawing& drawing, const std::string& file, std::size_t index,
               bool dark);
@@ -63,6 +66,7 @@ class FigureMaker {
 
   const RunData& run_;
   std::function<void(const std::string&)> picture_drawn_;
+  const std::atomic<bool>* stop_;
   std::filesystem::path images_;
   render::Renderer renderer_;
   render::Style light_;

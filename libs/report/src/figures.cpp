@@ -111,8 +111,9 @@ void add_timing(const RunData& run, FigureMaker& maker) {
 }  // namespace
 
 std::vector<Figure> draw_figures(const RunData& run, const evaluation::WorstSegments& worst,
-                                 const RunReportOptions& options) {
-  FigureMaker maker(run, options);
+                                 const RunReportOptions& options,
+                                 const std::filesystem::path& images) {
+  FigureMaker maker(run, options, images);
   add_trajectories(run, maker);
   add_loop_figures(run, maker);
   if (run.evaluation.comparison) add_error_figures(run, maker);

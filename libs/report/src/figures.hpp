@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -25,10 +26,11 @@ struct Figure {
   std::string dark;
 };
 
-/// Draws every picture that the run has data for and writes them to images/NAME.png and
-/// images/NAME_dark.png; those without point clouds also to images/NAME.svg and images/NAME.pdf,
-/// the others for print, if that is asked for. \throws files::OutputError
+/// Draws every picture that the run has data for and writes them to `images` as NAME.png and
+/// NAME_dark.png; those without point clouds also as NAME.svg and NAME.pdf, the others for print,
+/// if that is asked for. \throws files::OutputError; ReportStopped
 std::vector<Figure> draw_figures(const RunData& run, const evaluation::WorstSegments& worst,
-                                 const RunReportOptions& options);
+                                 const RunReportOptions& options,
+                                 const std::filesystem::path& images);
 
 }  // namespace traverse::report

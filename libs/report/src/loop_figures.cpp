@@ -22,7 +22,7 @@ geometry::Trajectory aligned(const geometry::Trajectory& trajectory,
   if (!evaluation.comparison) return trajectory;
   return geometry::Trajectory::stamped(
       trajectory.stamps(),
-      evaluation::aligned(trajectory.poses(), evaluation.comparison->alignment));
+      to_vector(evaluation::aligned(trajectory.poses(), evaluation.comparison->alignment)));
 }
 
 }  // namespace

@@ -43,6 +43,27 @@ std::string library(const std::string& name) {
   return {};
 }
 
+/// The notices that the licences of the libraries among `scripts` want in every copy of them.
+TemplateData licences(const std::vector<std::string>& scripts,
+                      const std::filesystem::path& templates) {
+  TemplateData list{TemplateData::type::list};
+  for (const std::string& script : scripts) {
+    TemplateData entry;
+    if (script == "three") {
+      entry.set("name", "three.js");
+      entry.set("version", "r" + std::string(web::kThreeVersion));
+    } else if (script == "dygraphs") {
+      entry.set("name", "dygraphs");
+      entry.set("version", std::string(web::kDygraphsVersion));
+    } else {
+      continue;
+    }
+    entry.set("notice", files::read_text(templates / "licences" / (script + ".txt")));
+    list.push_back(entry);
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string render_page(TemplateData& page, const std::string& page_name,
@@ -50,7 +71,7 @@ std::string render_page(TemplateData& page, const std::string& page_name,
                         const std::filesystem::path& templates) {
   page.set("style",
            std::string(web::dygraphs_style()) + "\n" + files::read_text(templates / "run.css"));
-  for (const std::string name : {"figure", "table", "factors"}) {
+  for (const std::string name : {"figure", "licences", "table", "factors"}) {
     const std::string text = files::read_text(templates / (name + ".html"));
     page.set(name, kainjow::mustache::partial([text] { return text; }));
   }
@@ -62,6 +83,7 @@ std::string render_page(TemplateData& page, const std::string& page_name,
     list.push_back(entry);
   }
   page.set("scripts", list);
+  page.set("libraries", licences(scripts, templates));
 
   const std::filesystem::path file = templates / (page_name + ".html");
   kainjow::mustache::mustache page_template(files::read_text(file));
@@ -79,7 +101,7 @@ std::string make_page(Model& model, const std::string& packed_points,
   model.page.set("points", packed_points);
   return render_page(model.page, "run",
                      {"three", "orbit_controls", "dygraphs", "moment", "charts", "scene_colours",
-                      "scene_points", "scene_way", "scene_measure", "scene", "tables"},
+                      "scene_points", "scene_way", "scene_measure", "scene", "csv", "tables"},
                      templates);
 }
 

@@ -31,9 +31,9 @@ std::vector<double> for_each_pose(const RunData& run, const std::vector<double>&
 
 geometry::Trajectory aligned_estimate(const RunData& run) {
   if (!run.evaluation.comparison) return run.estimate;
-  std::vector<geometry::Pose3> poses =
+  const evaluation::Poses poses =
       evaluation::aligned(run.estimate.poses(), run.evaluation.comparison->alignment);
-  return geometry::Trajectory::stamped(run.estimate.stamps(), std::move(poses));
+  return geometry::Trajectory::stamped(run.estimate.stamps(), to_vector(poses));
 }
 
 std::optional<Eigen::Vector3d> north_of_map(const RunData& run) {

@@ -51,12 +51,13 @@ HtmlTable worst_table(const RunData& run) {
   const auto eigenvalue = frames.column("eigenvalue_1");
   const auto total = frames.column("total_ms");
   for (const std::size_t i : frames_by_concern(frames)) {
-    table.add_row({Cell::moment(std::to_string(static_cast<std::size_t>(number[i])), i),
-                   stamp[i] - stamp.front(), registered[i] != 0 ? "yes" : "no",
-                   Cell::count(static_cast<std::size_t>(degenerate[i])), residual[i],
-                   100 * inliers[i], Cell::count(static_cast<std::size_t>(lines[i])),
-                   Cell::count(static_cast<std::size_t>(planes[i])), eigenvalue[i], total[i],
-                   fmt::format("traverse-replay {} --at {:.0f}", run.folder.string(), number[i])});
+    table.add_row(
+        {Cell::moment(std::to_string(static_cast<std::size_t>(number[i])), i),
+         stamp[i] - stamp.front(), registered[i] != 0 ? "yes" : "no",
+         Cell::count(static_cast<std::size_t>(degenerate[i])), residual[i], 100 * inliers[i],
+         Cell::count(static_cast<std::size_t>(lines[i])),
+         Cell::count(static_cast<std::size_t>(planes[i])), eigenvalue[i], total[i],
+         fmt::format("traverse-replay {} --at {:.0f}", run.folder.path.string(), number[i])});
   }
   return table;
 }

@@ -69,6 +69,11 @@ std::vector<Notice> notices(const RunData& run) {
   if (run.record.at("status") == "interrupted") {
     list.push_back({"warn", "Interrupted", "The run was stopped; this is what was done so far."});
   }
+  if (run.record.at("status") == "failed") {
+    list.push_back({"fail", "Failed",
+                    fmt::format("The run ended with an error; this is what was done before. {}",
+                                run.record.at("reason").get<std::string>())});
+  }
   if (!run.record.at("evaluation_error").is_null()) {
     list.push_back({"fail", "Not compared", run.record.at("evaluation_error")});
   }

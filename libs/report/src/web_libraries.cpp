@@ -31,4 +31,7 @@ std::string_view dygraphs_style() {
   return between(traverse_dygraphs_style, traverse_dygraphs_style_end);
 }
 
+const std::string_view kThreeVersion = TRAVERSE_THREE_JS_VERSION;
+const std::string_view kDygraphsVersion = TRAVERSE_DYGRAPHS_JS_VERSION;
+
 }  // namespace traverse::report::web

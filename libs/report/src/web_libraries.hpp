@@ -6,9 +6,13 @@
 /// report can be written anywhere.
 namespace traverse::report::web {
 
-std::string_view three();           ///< libjs-three r111, MIT
+std::string_view three();           ///< libjs-three, MIT
 std::string_view orbit_controls();  ///< of the same
-std::string_view dygraphs();        ///< libjs-dygraphs 2.2.1, MIT
+std::string_view dygraphs();        ///< libjs-dygraphs, MIT
 std::string_view dygraphs_style();
+
+/// As the files that were built in say themselves: "111", "2.2.1".
+extern const std::string_view kThreeVersion;
+extern const std::string_view kDygraphsVersion;
 
 }  // namespace traverse::report::web

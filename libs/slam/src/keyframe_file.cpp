@@ -140,6 +140,13 @@ std::vector<MapKeyframe> read_keyframes(const std::filesystem::path& file) {
     keyframe.content.features.surface = sweep_points(cloud(frame, kSurfacePoints, file, i));
     keyframe.content.features.planar = sweep_points(cloud(frame, kPlanarPoints, file, i));
     keyframe.content.features.edges = sweep_points(cloud(frame, kEdgePoints, file, i));
+    for (const auto* points :
+         {&keyframe.content.features.surface, &keyframe.content.features.planar,
+          &keyframe.content.features.edges}) {
+      mrpt_io::require_points_in_sight(file, i, points->x, points->y, points->z);
+    }
+    const KeyframePoints& points = keyframe.content.points;
+    mrpt_io::require_points_in_sight(file, i, points.x, points.y, points.z);
     const auto stamp = mrpt_io::to_stamp(frame.getObservationBySensorLabel(kMapPoints)->timestamp);
     keyframe.stamp = stamp.value_or(geometry::Stamp{});
     keyframe.content.stamp = keyframe.stamp;

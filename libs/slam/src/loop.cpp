@@ -1,5 +1,6 @@
 #include "traverse/slam/loop.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -112,6 +113,13 @@ bool named(const std::array<std::pair<Enum, std::string_view>, N>& names, std::s
 bool from_cell(std::string_view cell, LoopSource& value) { return named(kSources, cell, value); }
 bool from_cell(std::string_view cell, LoopVerdict& value) { return named(kVerdicts, cell, value); }
 
+std::vector<std::string> column_names() {
+  std::vector<std::string> names;
+  const Row none;
+  for_each_column(none, [&](const char* name, const auto&) { names.emplace_back(name); });
+  return names;
+}
+
 }  // namespace
 
 std::string_view name_of(LoopSource source) { return name_in(kSources, source); }
@@ -119,10 +127,7 @@ std::string_view name_of(LoopVerdict verdict) { return name_in(kVerdicts, verdic
 
 void write_loops(const std::filesystem::path& file, std::span<const Loop> loops) {
   files::AtomicFile target(file);
-  std::vector<std::string> names;
-  const Row none;
-  for_each_column(none, [&](const char* name, const auto&) { names.emplace_back(name); });
-  target.stream() << fmt::format("{}\n", fmt::join(names, ","));
+  target.stream() << fmt::format("{}\n", fmt::join(column_names(), ","));
   for (const Loop& loop : loops) {
     const Row row{loop, loop.T_candidate_keyframe.translation,
                   loop.T_candidate_keyframe.quaternion()};
@@ -136,6 +141,12 @@ void write_loops(const std::filesystem::path& file, std::span<const Loop> loops)
 std::vector<Loop> read_loops(const std::filesystem::path& file) {
   files::LineReader reader(file);
   if (!reader.next()) throw reader.error("a header line", "an empty file");
+  const std::vector<std::string> names = column_names();
+  const auto head = files::split_cells(reader.line(), ',');
+  if (!std::equal(names.begin(), names.end(), head.begin(), head.end())) {
+    throw reader.error(
+        fmt::format("the {} columns {}, ... {}", names.size(), names.front(), names.back()));
+  }
   std::vector<Loop> loops;
   while (reader.next()) {
     const std::vector<std::string_view> cells = files::split_cells(reader.line(), ',');

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "traverse/geometry/angle.hpp"
 #include "traverse/geometry/so3.hpp"
@@ -16,7 +17,13 @@ using voxel_map::AlignmentOptions;
 using voxel_map::Effort;
 
 constexpr Effort kMuchEffort{6, 2};
+constexpr double kCoarser = 1.2;                          // where there would be too many starts
 const voxel_map::MotionModel kStanding{{}, 1, false};  // keyframes are deskewed
+
+/// Grid points to one side of the middle one, so that no place is farther than half a spacing off.
+double steps_to(double reach, double spacing) {
+  return std::max(0.0, std::ceil(reach / spacing - 0.5));
+}
 
 std::size_t support_of(const Alignment& found) {
   return found.health.registered ? found.standing_planes + 2 * found.health.line_matches : 0;
@@ -52,28 +59,32 @@ void bind(config::Binder& b, LoopRegistrationOptions& o) {
 
 std::vector<geometry::Pose3> starts_around(const geometry::Pose3& guess, const SearchRegion& region,
                                            const LoopRegistrationOptions& options) {
-  const int headings = static_cast<int>(
-      std::ceil(region.half_turn_rad / (options.start_spacing_deg * geometry::kDegree) - 0.5));
-  const int turns = std::max(0, headings);
+  // Counted in doubles: a region can be larger than an int of its grid's cells.
+  const double half_turn_rad = std::min(region.half_turn_rad, std::numbers::pi);
+  double spacing_rad = options.start_spacing_deg * geometry::kDegree;
   double spacing_m = options.start_spacing_m;
-  const auto side_of = [&] {
-    return std::max(0, static_cast<int>(std::ceil(region.radius_m / spacing_m - 0.5)));
+  const auto headings = [&] { return 2 * steps_to(half_turn_rad, spacing_rad) + 1; };
+  const auto positions = [&] {
+    const double side = steps_to(region.radius_m, spacing_m);
+    return 3 * side * side;
   };
-  while (3 * side_of() * side_of() * (2 * turns + 1) > options.most_starts) spacing_m *= 1.2;
+  while (headings() > options.most_starts) spacing_rad *= kCoarser;
+  while (positions() * headings() > options.most_starts) spacing_m *= kCoarser;
 
   struct Start {
     double distance;
     geometry::Pose3 pose;
   };
   std::vector<Start> starts;
-  const int side = side_of();
+  const int turns = static_cast<int>(steps_to(half_turn_rad, spacing_rad));
+  const int side = static_cast<int>(steps_to(region.radius_m, spacing_m));
   for (int ix = -side; ix <= side; ++ix) {
     for (int iy = -side; iy <= side; ++iy) {
       const Eigen::Vector3d shift(ix * spacing_m, iy * spacing_m, 0);
       if (shift.norm() > region.radius_m + 0.5 * spacing_m) continue;
       for (int turn = -turns; turn <= turns; ++turn) {
         geometry::Pose3 offset;
-        const double angle = turn * options.start_spacing_deg * geometry::kDegree;
+        const double angle = turn * spacing_rad;
         offset.rotation = geometry::exp_so3(Eigen::Vector3d(0, 0, angle));
         offset.translation = shift;
         starts.push_back({shift.norm() + std::abs(turn) * 1e-3, guess * offset});

@@ -24,8 +24,9 @@ ScanContext::ScanContext(std::span<const float> x, std::span<const float> y,
   const double per_m = options.rings / options.reach_m;
   const double per_rad = options.sectors / (2 * std::numbers::pi);
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const auto ring = static_cast<std::size_t>(std::hypot(x[i], y[i]) * per_m);
-    if (ring >= rings_) continue;
+    const double rings_off = std::hypot(x[i], y[i]) * per_m;
+    if (!(rings_off < options.rings)) continue;
+    const auto ring = static_cast<std::size_t>(rings_off);
     const double azimuth = std::atan2(y[i], x[i]) + std::numbers::pi;
     const auto sector = std::min(static_cast<std::size_t>(azimuth * per_rad), sectors_ - 1);
     float& height = heights_[sector * rings_ + ring];

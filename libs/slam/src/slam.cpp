@@ -25,13 +25,13 @@ void Slam::add(const lidar::Frame& frame, const sensors::LidarScan& scan,
                const lidar::CorrectedScan& points, bool deskewed) {
   Keyframe keyframe = maker_.make(frame, scan, points, deskewed);
   const std::size_t id = keyframe.id;
-  stamps_.push_back(keyframe.stamp);
   chain_.add(keyframe.T_odom_lidar, keyframe.step_covariance);
   graph_.add_node(id, keyframe.T_odom_lidar);
   if (id > 0) {
     graph_.add_between(id - 1, id, chain_.motion(id - 1, id), keyframe.step_covariance,
                        pose_graph::EdgeKind::kOdometry);
   }
+  stamps_.push_back(keyframe.stamp);  // of those with a pose alone, should what is above fail
   candidates_.add(
       {keyframe.points.x, keyframe.points.y, keyframe.points.z, options_.candidates.context},
       chain_.way_m(0, id), graph_.pose(id).translation);
@@ -63,8 +63,14 @@ void Slam::accept(Loop& loop) {
 }
 
 void Slam::solve() {
-  solution_ = graph_.optimise();
+  pose_graph::Result result = graph_.optimise();
   unsolved_loops_ = 0;
+  failure_.clear();
+  if (!result.is_usable) {
+    failure_ = std::move(result.message);
+    return;
+  }
+  solution_ = std::move(result);
   std::vector<Eigen::Vector3d> p_map;
   for (std::size_t i = 0; i < graph_.size(); ++i) p_map.push_back(graph_.pose(i).translation);
   candidates_.move(p_map);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <Eigen/Dense>
@@ -123,8 +124,15 @@ Loop Slam::verify(const Candidate& candidate, LoopSource source, const Keyframe&
   const double sigma_turn = largest_sigma(prediction.covariance.topLeftCorner<3, 3>());
   SearchRegion region;
   region.radius_m = std::max(0.0, 2 * prediction.sigma_m - kDrawnIn_m);
-  region.half_turn_rad = std::max(0.0, 2 * sigma_turn - kDrawnIn_rad);
-  const auto starts = starts_around(guess, region, options_.registration);
+  region.half_turn_rad = std::clamp(2 * sigma_turn - kDrawnIn_rad, 0.0, std::numbers::pi);
+  geometry::Pose3 middle = guess;
+  if (region.radius_m > options_.candidates.context.reach_m) {
+    // Farther than a scan shows surroundings: where odometry lost its way, its guess says nothing.
+    // What would be a loop is within reach of the candidate.
+    middle.translation = T_centre_candidate.translation;
+    region.radius_m = options_.candidates.reach_m;
+  }
+  const auto starts = starts_around(middle, region, options_.registration);
   const LoopRegistration found =
       register_in(*submap, content.features, starts, options_.registration);
 

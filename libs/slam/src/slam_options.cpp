@@ -29,7 +29,7 @@ void bind(config::Binder& b, SlamOptions& o) {
   using config::Range;
   b.group("keyframes", "scans that the map is made of",
           [&](config::Binder& g) { bind(g, o.keyframes); });
-  b.number("memory_mb", o.memory_mb, Range::non_negative(),
+  b.number("memory_mb", o.memory_mb, Range::between(0, 1e7),
            "of keyframes; what is more goes to a temporary file");
   b.group("candidates", "earlier keyframes that may show the same place",
           [&](config::Binder& g) { bind(g, o.candidates); });

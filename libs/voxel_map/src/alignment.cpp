@@ -10,6 +10,7 @@
 #include "traverse/geometry/so3.hpp"
 #include "traverse/lidar/stopwatch.hpp"
 #include "traverse/optimization/rotation_manifold.hpp"
+#include "traverse/optimization/solution.hpp"
 #include "traverse/parallel/workers.hpp"
 #include "traverse/statistics/quantile.hpp"
 
@@ -61,10 +62,8 @@ Solved solve(CondensedCost& cost, const geometry::Pose3& guess, int iterations) 
   options.max_num_iterations = iterations;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
-  return {geometry::Pose3::from_quaternion(q, t), static_cast<int>(summary.iterations.size()) - 1,
-          summary.IsSolutionUsable()};
+  const optimization::Solution solution = optimization::solve(options, problem);
+  return {geometry::Pose3::from_quaternion(q, t), solution.iterations, solution.is_usable};
 }
 
 }  // namespace

@@ -7,7 +7,9 @@ namespace traverse::voxel_map {
 CellGrid::CellGrid(const Eigen::Vector3d& origin_map, double edge_m)
     : cell_m(static_cast<float>(edge_m)), per_m(static_cast<float>(1 / edge_m)) {
   for (int axis = 0; axis < 3; ++axis) {
-    const double cell = std::floor(origin_map[axis] / edge_m);
+    constexpr double kFarthest = 1e9;  // of what 32 bits count, with room for what is around
+    const double floor = std::floor(origin_map[axis] / edge_m);
+    const double cell = std::abs(floor) < kFarthest ? floor : 0;
     base[axis] = static_cast<std::int32_t>(cell);
     shift[axis] = static_cast<float>(origin_map[axis] - cell * edge_m);
   }

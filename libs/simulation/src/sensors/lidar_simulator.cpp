@@ -24,6 +24,24 @@ void require_beams(const std::vector<double>& values, std::size_t beams, const c
       fmt::format("{}: expected {} numbers, one a beam, found {}", key, beams, values.size()));
 }
 
+/// A sweep is held in memory.
+void require_reasonable(const sensors::LidarProfile& profile, std::size_t beams, double period_s) {
+  constexpr double kShortestSweep_s = 1e-3;
+  constexpr double kLongestSweep_s = 1e3;
+  constexpr double kMostRays = 1 << 22;
+  if (!(profile.sweep_s >= kShortestSweep_s && profile.sweep_s <= kLongestSweep_s)) {
+    throw std::invalid_argument(fmt::format("sweep_s: expected {:g} to {:g} s, found {:g}",
+                                            kShortestSweep_s, kLongestSweep_s, profile.sweep_s));
+  }
+  const double rays = profile.sweep_s / period_s * static_cast<double>(beams);
+  if (!(rays <= kMostRays)) {
+    throw std::invalid_argument(
+        fmt::format("firing.period_us: expected at most {:.0f} rays a sweep, found {:g} ({} beams, "
+                    "{:g} firings)",
+                    kMostRays, rays, beams, profile.sweep_s / period_s));
+  }
+}
+
 }  // namespace
 
 /// Rays of some firings, those of a beam side by side: index is beam * kColumns + column.
@@ -59,6 +77,7 @@ LidarSimulator::LidarSimulator(const sensors::LidarProfile& profile,
         fmt::format("firing.period_us: expected the time between two firings, found {:g}",
                     profile.firing.period_us));
   }
+  require_reasonable(profile, count, period_s_);
   require_beams(profile.firing.times_us, count, "firing.times_us");
   require_beams(profile.firing.azimuth_offsets_deg, count, "firing.azimuth_offsets_deg");
   for (std::size_t i = 0; i < count; ++i) {

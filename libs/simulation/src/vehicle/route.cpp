@@ -32,6 +32,24 @@ std::vector<Eigen::Vector2d> waypoints_of(const RouteSettings& settings) {
   return points;
 }
 
+/// What is kept of a place and a drive grows with their length.
+void require_reasonable(const RouteSettings& s, double lap_m) {
+  constexpr double kLongestLap_m = 100e3;
+  constexpr double kLongest_s = 200e3;
+  if (!(lap_m <= kLongestLap_m)) {
+    throw ImpossibleRoute("waypoints_m",
+                          fmt::format("a lap of at most {:.0f} km", kLongestLap_m / 1000),
+                          fmt::format("{:g} km", lap_m / 1000));
+  }
+  const double laps = s.closed ? static_cast<double>(s.laps) : 1;
+  const double driven_s = laps * lap_m / s.speed_mps;
+  const double halted_s = laps * s.stop_s * static_cast<double>(s.stops_m.size());
+  if (!(driven_s + halted_s <= kLongest_s)) {
+    throw ImpossibleRoute("laps", fmt::format("laps that take at most {:.0f} s", kLongest_s),
+                          fmt::format("{:g} of {:g} s", laps, (driven_s + halted_s) / laps));
+  }
+}
+
 /// Straight road before the first and behind the last waypoint.
 void extend(std::vector<Eigen::Vector2d>& points) {
   const Eigen::Vector2d first = (points[1] - points[0]).normalized();
@@ -76,6 +94,7 @@ Route::Route(const RouteSettings& settings, std::optional<std::uint64_t> other_d
   }
   const RoundedLine line(points, settings.closed, settings.corner_radius_m);
 
+  require_reasonable(settings, line.length());
   const auto pieces = static_cast<std::size_t>(std::ceil(line.length() / kControlEvery));
   const double step = line.length() / static_cast<double>(pieces);
   std::vector<double> x, y;

@@ -18,7 +18,7 @@ struct Job {
   std::string pipeline;
   std::vector<std::string> settings;   ///< "solver.huber_m=0.2", of the grid only
   int repeat = 1;                      ///< counted from 1
-  std::vector<std::string> arguments;  ///< of the program: "run", RECORDING, ...; output is "."
+  std::vector<std::string> arguments;  ///< of the program: "run", RECORDING, ...; output is "run"
   RunLimits limits;
 
   /// "floam solver.huber_m=0.2": the pipeline and its point of the grid.

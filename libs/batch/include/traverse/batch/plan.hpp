@@ -91,13 +91,20 @@ using SimulationCheck =
     std::function<std::optional<std::string>(const std::vector<std::string>& words)>;
 
 /// Reads and checks a plan: known keys, files that are there, presets and settings that exist,
-/// limits that can be kept, names that are there once.
+/// limits that can be kept, names that are there once, at most kMostRuns runs.
 /// \throws files::InputError with file and line.
 Plan load_plan(const std::filesystem::path& file, const std::filesystem::path& share_folder,
                const SimulationCheck& simulation_error);
 
 /// The numbers that multiply to the number of runs, in words: "2 recordings x 3 pipelines ...".
 std::string describe(const Plan& plan);
+
+/// More runs than this are refused: a batch keeps some kilobytes of each in memory.
+inline constexpr std::size_t kMostRuns = 200'000;
+
+/// How many runs the plan has, counted without making their list; the largest number of all for
+/// more than that.
+std::size_t count_runs(const Plan& plan);
 
 /// The points of a pipeline's grid: one list of "key=value" a point; one empty list without grid.
 std::vector<std::vector<std::string>> grid_points(const std::vector<GridAxis>& grid);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "traverse/dataset/source.hpp"
 
@@ -19,6 +20,10 @@ class RecordingWriter {
   /// \throws files::OutputError if a byte is not taken.
   virtual void add(const sensors::Measurement& measurement) = 0;
 
+  /// A file that goes with the recording and appears with it: NAME in a folder, X.NAME beside
+  /// X.rawlog. \throws files::OutputError
+  virtual void add_file(const std::string& name, const std::string& text) = 0;
+
   /// Writes what remains and puts everything in its place. \throws files::OutputError
   virtual void commit() = 0;
 
@@ -29,12 +34,22 @@ class RecordingWriter {
   std::map<std::string, std::size_t> left_out_;
 };
 
+/// What becomes of files that are there already where new ones beside each other are to be. Those
+/// of an earlier writing of the same recording are replaced, when the new ones are complete.
+struct FilesThere {
+  bool replace = false;  ///< those of others as well
+  std::vector<std::string>
+      others;  ///< names that add_file() will be given, to be looked for at once
+};
+
 struct RawlogOptions {
   int gzip_level = 1;  ///< 0 (plain) to 9
+  FilesThere there;
 };
 
 /// Writes `file` as a rawlog of observations that MRPT's own tools open, with the facts in
 /// X.traverse.yaml and the reference in X.reference.tum beside it.
+/// \throws files::OutputError if one of these files is there and this program did not write it.
 ///
 /// A lidar scan becomes a CObservationVelodyneScan with only its point cloud filled: rings and
 /// times, found as the profile says, go to laser_id and timestamp (ticks of 100 ns), intensity is
@@ -53,7 +68,8 @@ std::unique_ptr<RecordingWriter> write_rawlog(const std::filesystem::path& file,
 /// altitude and deviations of fixes have no place in it.
 std::unique_ptr<RecordingWriter> write_navigation_log(const std::filesystem::path& file,
                                                       const RecordingInfo& info,
-                                                      const std::optional<Reference>& reference);
+                                                      const std::optional<Reference>& reference,
+                                                      const FilesThere& there = {});
 
 enum class ScanFolderFormat { kPcd, kPly, kKitti };
 

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -43,6 +45,13 @@ TrajectoryFormat detect_trajectory_format(const std::filesystem::path& file);
 /// that are no rotation (to 1e-2), a stamp before its predecessor (equal ones are allowed), no
 /// pose.
 geometry::Trajectory read_trajectory(const std::filesystem::path& file, TrajectoryFormat format);
+
+/// Takes the poses of a file one after the other, with their stamps where the format has them.
+using PoseTaker =
+    std::function<void(const std::optional<geometry::Stamp>&, const geometry::Pose3& T_map_body)>;
+
+/// The same without keeping the poses. \throws as read_trajectory(), after those before were taken
+void read_poses(const std::filesystem::path& file, TrajectoryFormat format, const PoseTaker& take);
 
 /// Write T_map_body; the file appears whole or not at all. A trajectory without poses gives a file
 /// without poses.

@@ -3,11 +3,11 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "traverse/evaluation/poses.hpp"
 #include "traverse/geometry/pose3.hpp"
 
 namespace traverse::evaluation {
@@ -50,11 +50,12 @@ struct Alignment {
 /// Source: Umeyama, PAMI 1991, on the positions; for kOrigin T_ref0 T_est0^-1.
 /// \throws EvaluationError if the positions do not determine the transform; std::invalid_argument
 /// if the sizes differ or are zero.
-Alignment align(std::span<const geometry::Pose3> estimate,
-                std::span<const geometry::Pose3> reference, const AlignmentOptions& options);
+Alignment align(const Poses& estimate, const Poses& reference, const AlignmentOptions& options);
 
-/// `alignment` applied to each pose.
-std::vector<geometry::Pose3> aligned(std::span<const geometry::Pose3> estimate,
-                                     const Alignment& alignment);
+/// `alignment` applied to each pose when it is asked for.
+Poses aligned(Poses estimate, const Alignment& alignment);
+
+/// The poses one after the other, to be kept.
+std::vector<geometry::Pose3> to_vector(const Poses& poses);
 
 }  // namespace traverse::evaluation

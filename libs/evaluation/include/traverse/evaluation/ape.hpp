@@ -1,11 +1,10 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
+#include "traverse/evaluation/poses.hpp"
 #include "traverse/evaluation/relation.hpp"
 #include "traverse/evaluation/statistics.hpp"
-#include "traverse/geometry/pose3.hpp"
 
 namespace traverse::evaluation {
 
@@ -19,7 +18,6 @@ struct Ape {
 /// Of matched poses, the estimate already aligned. Source: Sturm et al., "A benchmark for the
 /// evaluation of RGB-D SLAM systems", IROS 2012; definitions of evo. \throws std::invalid_argument
 /// if the sizes differ or are zero, or the relation is not absolute.
-Ape ape(std::span<const geometry::Pose3> estimate, std::span<const geometry::Pose3> reference,
-        Relation relation);
+Ape ape(const Poses& estimate, const Poses& reference, Relation relation);
 
 }  // namespace traverse::evaluation

@@ -2,11 +2,12 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "traverse/geometry/trajectory.hpp"
+#include "traverse/evaluation/trajectory_view.hpp"
 
 namespace traverse::evaluation {
 
@@ -45,18 +46,19 @@ struct Association {
 /// \throws EvaluationError if a trajectory is empty, only one has stamps, stamps go back, no pose
 /// finds a partner (with both spans and the closest difference), or trajectories without stamps
 /// differ in size; std::invalid_argument for options that are negative or not finite.
-Association associate(const geometry::Trajectory& estimate, const geometry::Trajectory& reference,
+Association associate(const TrajectoryView& estimate, const TrajectoryView& reference,
                       const AssociationOptions& options);
 
 /// The poses of `matches`, element k of both belonging together.
 struct MatchedPoses {
-  std::vector<geometry::Pose3> estimate;
-  std::vector<geometry::Pose3> reference;
+  Poses estimate;
+  Poses reference;
 
   std::size_t size() const { return reference.size(); }
 };
 
-MatchedPoses matched_poses(const geometry::Trajectory& estimate,
-                           const geometry::Trajectory& reference, const Association& association);
+/// A view of the trajectories and the matches, which must outlive it.
+MatchedPoses matched_poses(const TrajectoryView& estimate, const TrajectoryView& reference,
+                           std::span<const Match> matches);
 
 }  // namespace traverse::evaluation

@@ -13,7 +13,7 @@
 #include "traverse/evaluation/kitti_drift.hpp"
 #include "traverse/evaluation/path_figures.hpp"
 #include "traverse/evaluation/rpe.hpp"
-#include "traverse/geometry/trajectory.hpp"
+#include "traverse/evaluation/trajectory_view.hpp"
 
 namespace traverse::evaluation {
 
@@ -76,10 +76,10 @@ struct Evaluation {
 };
 
 /// \throws EvaluationError as the parts do, and for a pose that is not finite.
-Evaluation evaluate(const geometry::Trajectory& estimate, const geometry::Trajectory& reference,
+Evaluation evaluate(const TrajectoryView& estimate, const TrajectoryView& reference,
                     const EvaluationOptions& options);
 
 /// Of an estimate without a reference: only its facts, to which a Consistency may be added.
-Evaluation evaluate(const geometry::Trajectory& estimate);
+Evaluation evaluate(const TrajectoryView& estimate);
 
 }  // namespace traverse::evaluation

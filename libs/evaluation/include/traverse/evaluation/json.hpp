@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <iosfwd>
 #include <string>
 #include <string_view>
 
@@ -41,8 +43,13 @@ namespace traverse::evaluation {
 /// stamps whole nanoseconds; indices in rpe and kitti count the elements of association.per_pair.
 std::string to_json(const Evaluation& evaluation);
 
+/// The same into a stream, without the whole of it in memory.
+void write_json(const Evaluation& evaluation, std::ostream& stream);
+
 /// Reads it back; to_json() of the result is `text` again.
 /// \throws EvaluationError naming the key that is missing or of another kind.
 Evaluation from_json(std::string_view text);
+/// The same of a file. \throws files::InputError naming the file and the key.
+Evaluation read_evaluation(const std::filesystem::path& file);
 
 }  // namespace traverse::evaluation

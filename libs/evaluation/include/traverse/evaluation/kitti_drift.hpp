@@ -3,10 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
+#include "traverse/evaluation/poses.hpp"
 #include "traverse/geometry/pose3.hpp"
 
 namespace traverse::evaluation {
@@ -61,8 +61,7 @@ struct KittiDrift {
 /// precision, of matched poses that are not aligned; nothing where the reference is shorter than
 /// the shortest stretch. Source: Geiger et al., CVPR 2012, and evaluate_odometry.cpp of its devkit.
 /// \throws std::invalid_argument if the sizes differ or step or frame_seconds is not positive.
-std::optional<KittiDrift> kitti_drift(std::span<const geometry::Pose3> estimate,
-                                      std::span<const geometry::Pose3> reference,
+std::optional<KittiDrift> kitti_drift(const Poses& estimate, const Poses& reference,
                                       const KittiDriftOptions& options);
 
 }  // namespace traverse::evaluation

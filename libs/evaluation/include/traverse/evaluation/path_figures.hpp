@@ -1,10 +1,9 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <vector>
 
-#include "traverse/geometry/pose3.hpp"
+#include "traverse/evaluation/poses.hpp"
 
 namespace traverse::evaluation {
 
@@ -19,10 +18,11 @@ struct PathFigures {
 
 /// Of matched poses that are not aligned. \throws std::invalid_argument if the sizes differ or are
 /// zero.
-PathFigures path_figures(std::span<const geometry::Pose3> estimate,
-                         std::span<const geometry::Pose3> reference);
+PathFigures path_figures(const Poses& estimate, const Poses& reference);
 
 /// Path length from the first pose to each, metres; the first is 0.
-std::vector<double> accumulated_distances(std::span<const geometry::Pose3> poses);
+std::vector<double> accumulated_distances(const Poses& poses);
+/// The last of them; 0 without poses.
+double path_length(const Poses& poses);
 
 }  // namespace traverse::evaluation

@@ -3,13 +3,12 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "traverse/geometry/pose3.hpp"
+#include "traverse/evaluation/poses.hpp"
 
 namespace traverse::evaluation {
 
@@ -54,7 +53,6 @@ struct IndexPair {
 /// whose directions differ by `delta` to a tenth of it.
 ///
 /// \throws std::invalid_argument if `delta` is not valid.
-std::vector<IndexPair> select_pairs(std::span<const geometry::Pose3> poses, const Delta& delta,
-                                    bool all_pairs);
+std::vector<IndexPair> select_pairs(const Poses& poses, const Delta& delta, bool all_pairs);
 
 }  // namespace traverse::evaluation

@@ -42,8 +42,8 @@ double absolute_error(const geometry::Pose3& T_estimate, const geometry::Pose3& 
 
 /// The motion from one moment to another, as the poses at both.
 struct Motion {
-  const geometry::Pose3& T_map_from;
-  const geometry::Pose3& T_map_to;
+  geometry::Pose3 T_map_from;
+  geometry::Pose3 T_map_to;
 };
 
 /// The error of one motion, E = (reference motion)^-1 (estimated motion). For kPointDistanceRatio

@@ -2,15 +2,14 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "traverse/evaluation/pose_pairs.hpp"
+#include "traverse/evaluation/poses.hpp"
 #include "traverse/evaluation/relation.hpp"
 #include "traverse/evaluation/statistics.hpp"
-#include "traverse/geometry/pose3.hpp"
 
 namespace traverse::evaluation {
 
@@ -40,18 +39,17 @@ struct Rpe {
 
 /// The pairs of matched poses that `options` ask for. \throws EvaluationError if there is none,
 /// saying what there is; std::invalid_argument if the sizes differ or the delta is not valid.
-std::vector<IndexPair> rpe_pairs(std::span<const geometry::Pose3> estimate,
-                                 std::span<const geometry::Pose3> reference,
+std::vector<IndexPair> rpe_pairs(const Poses& estimate, const Poses& reference,
                                  const RpeOptions& options);
 
 /// Over `pairs` that were selected by `options`, of matched poses, the estimate already aligned
 /// (its scale matters). Source: Sturm et al., IROS 2012; definitions of evo. \throws
 /// EvaluationError if no pair is left because the reference never moves.
-Rpe rpe(std::span<const geometry::Pose3> estimate, std::span<const geometry::Pose3> reference,
-        const RpeOptions& options, std::vector<IndexPair> pairs, Relation relation);
+Rpe rpe(const Poses& estimate, const Poses& reference, const RpeOptions& options,
+        std::vector<IndexPair> pairs, Relation relation);
 
 /// Both steps. \throws as they do.
-Rpe rpe(std::span<const geometry::Pose3> estimate, std::span<const geometry::Pose3> reference,
-        const RpeOptions& options, Relation relation);
+Rpe rpe(const Poses& estimate, const Poses& reference, const RpeOptions& options,
+        Relation relation);
 
 }  // namespace traverse::evaluation

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,8 +20,9 @@ std::optional<std::int64_t> parse_integer(std::string_view text);
 /// result is `value` again, bit for bit.
 std::string to_text(double value);
 
-/// The words of `line`, separated by blanks and tabs.
-std::vector<std::string_view> split_words(std::string_view line);
+/// The words of `line`, separated by blanks and tabs; of more than `most` the first `most`.
+std::vector<std::string_view> split_words(std::string_view line,
+                                          std::size_t most = static_cast<std::size_t>(-1));
 
 /// The cells of `line` between `separator`s, without the blanks around each.
 std::vector<std::string_view> split_cells(std::string_view line, char separator);

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <string>
 
+#include "traverse/files/binary_file.hpp"
 #include "traverse/files/input_error.hpp"
 
 namespace traverse::files {
@@ -12,10 +13,15 @@ namespace traverse::files {
 /// Reads a text file line by line and knows where it is, for error messages.
 class LineReader {
  public:
+  /// No line that a person or a program means is as long [bytes]; what is made of a line (words,
+  /// numbers) takes many times its memory.
+  static constexpr std::size_t kLongestLine = std::size_t{1} << 20;
+
   /// \throws InputError if the file cannot be opened.
   explicit LineReader(std::filesystem::path path);
 
   /// Advances to the next line that is neither blank nor a '#' comment; false at the end.
+  /// \throws InputError for a line longer than kLongestLine.
   bool next();
 
   const std::string& line() const { return line_; }
@@ -27,13 +33,15 @@ class LineReader {
   InputError error(std::string expected) const;
 
  private:
+  bool take_line();
+
   std::filesystem::path path_;
   std::ifstream stream_;
   std::string line_;
   std::size_t number_ = 0;
 };
 
-/// The whole file. \throws InputError if it cannot be read.
+/// The whole file. \throws InputError if it cannot be read or is larger than kMostBytesAtOnce.
 std::string read_text(const std::filesystem::path& path);
 
 }  // namespace traverse::files

@@ -14,7 +14,7 @@ namespace traverse::geometry {
 struct Stamp {
   std::int64_t nanoseconds = 0;
 
-  static Stamp from_seconds(double seconds);  ///< to the nearest nanosecond
+  static Stamp from_seconds(double seconds);  ///< nearest, to 9.2e9 s at most; of NaN the epoch
   double seconds() const { return static_cast<double>(nanoseconds) * 1e-9; }
 
   auto operator<=>(const Stamp&) const = default;
@@ -23,7 +23,7 @@ struct Stamp {
 /// later - earlier in seconds, without the loss that two doubles of Unix time would bring.
 double seconds_between(Stamp earlier, Stamp later);
 
-/// `stamp` moved by `seconds`, which may be negative.
+/// `stamp` moved by `seconds`, which may be negative, but not out of what 64 bits hold.
 Stamp shifted(Stamp stamp, double seconds);
 
 /// Seconds as a decimal with nine places: "1317042145.964000000".

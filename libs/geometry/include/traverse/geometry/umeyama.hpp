@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <span>
 #include <stdexcept>
 
@@ -29,5 +31,9 @@ class DegenerateAlignment : public std::runtime_error {
 /// DegenerateAlignment.
 Similarity umeyama(std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> y,
                    bool with_scale);
+
+/// The same of `count` points each that x and y tell one by one; each is asked twice.
+Similarity umeyama(std::size_t count, const std::function<Eigen::Vector3d(std::size_t)>& x,
+                   const std::function<Eigen::Vector3d(std::size_t)>& y, bool with_scale);
 
 }  // namespace traverse::geometry

@@ -9,11 +9,14 @@
 namespace traverse::geometry {
 
 /// The cell of a grid of edge `edge_m`, anchored at the origin, that holds `p`; packed in 64 bits,
-/// 21 an axis, so cells repeat after two million edges (400 km at 0.2 m).
+/// 21 an axis, so cells repeat after two million edges (400 km at 0.2 m). Coordinates beyond what
+/// 64 bits count share a cell.
 inline std::uint64_t voxel_key(const Eigen::Vector3d& p, double edge_m) {
   const auto axis = [&](double value) {
-    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(value / edge_m))) &
-           0x1fffffU;
+    constexpr double kFarthest = 9e18;
+    const double cell = std::floor(value / edge_m);
+    if (!(std::abs(cell) < kFarthest)) return std::uint64_t{0};
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(cell)) & 0x1fffffU;
   };
   return axis(p.x()) << 42U | axis(p.y()) << 21U | axis(p.z());
 }

@@ -7,6 +7,10 @@
 #include "traverse/loam/frame_correspondences.hpp"
 #include "traverse/loam/registration.hpp"
 
+namespace traverse::files {
+class JsonValue;
+}
+
 namespace traverse::loam {
 
 /// Median of the repeats of a measurement and the values below which a quarter and three quarters
@@ -58,7 +62,7 @@ FactorBench measure_factors(const FrameCorrespondences& frame, const SolverOptio
 /// S = {"median", "lower_quartile", "upper_quartile"}.
 std::string to_json(const FactorBench& bench);
 
-/// Reads to_json's text. \throws std::runtime_error saying what is wrong with it.
-FactorBench factor_bench_from_json(const std::string& text);
+/// Reads what to_json() wrote. \throws files::InputError naming the file and the key.
+FactorBench factor_bench_from_json(const files::JsonValue& json);
 
 }  // namespace traverse::loam

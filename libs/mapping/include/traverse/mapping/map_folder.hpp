@@ -25,7 +25,14 @@ struct MapFolder {
   std::filesystem::path grid() const { return path / "grid.yaml"; }
   /// Only of a map whose frame is ENU.
   std::filesystem::path origin() const { return path / "origin.json"; }
+  /// What the map is made of, and the names of its files: by it an earlier map is known.
+  std::filesystem::path record() const { return path / "map.json"; }
 };
+
+/// The names of all files of a map that is in the folder already, to be replaced by another; none
+/// if the folder is empty or not there.
+/// \throws files::OutputError naming what is in the folder that no map of this program put there.
+std::vector<std::string> files_of_earlier_map(const MapFolder& folder);
 
 struct MapOptions {
   double voxel_m = 0.1;       ///< of the points of map.ply

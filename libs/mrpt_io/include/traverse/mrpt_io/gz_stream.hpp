@@ -32,6 +32,9 @@ class GzInput {
   /// that lies before is decompressed, on the way back from the beginning.
   void go_to(std::uint64_t position);
   double share_read() const;  ///< of the file on disk, 0 to 1
+  /// Whether the bytes before `end` (uncompressed) are there. Found out by decompressing them, if
+  /// need be.
+  bool reaches(std::uint64_t end);
   /// What stopped a read: "the file is cut short", or what zlib says; empty as long as all is well.
   const std::string& fault() const { return fault_; }
 
@@ -64,6 +67,9 @@ class GzInput {
   std::optional<std::uint32_t> most_counted_;
   bool things_follow_ = false;  ///< the last count was of things that may be four bytes together
   std::string fault_;
+
+  std::unique_ptr<gzFile_s, void (*)(gzFile_s*)> ahead_file_;  ///< of reaches(); or null
+  std::uint64_t known_until_ = 0;  ///< bytes that are known to be there, uncompressed
 };
 
 /// A file written with gzip compression, or plain with level 0.

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <span>
 
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DPDF.h>
@@ -22,10 +23,17 @@ void write_simple_map(
 
 /// Reads any simple map of MRPT. \param take is given each keyframe in turn
 /// \returns how many there were
-/// \throws files::InputError if the file is no simple map or damaged, and what `take` throws
+/// \throws files::InputError if the file is no simple map or damaged, or a pose is not finite or
+/// beyond any drive, and what `take` throws
 std::size_t for_each_keyframe(
     const std::filesystem::path& file,
     const std::function<void(std::size_t i, const mrpt::poses::CPose3DPDF& pose,
                              const mrpt::obs::CSensoryFrame& frame)>& take);
+
+/// That the points of a keyframe are finite and as near as a lidar sees.
+/// \param record number of the keyframe \throws files::InputError
+void require_points_in_sight(const std::filesystem::path& file, std::size_t record,
+                             std::span<const float> x, std::span<const float> y,
+                             std::span<const float> z);
 
 }  // namespace traverse::mrpt_io

@@ -8,6 +8,10 @@
 
 #include "traverse/optimization/factor_kind.hpp"
 
+namespace traverse::files {
+class JsonValue;
+}
+
 namespace traverse::optimization {
 
 struct AuditOptions {
@@ -69,7 +73,7 @@ std::vector<FactorKind> selected(std::span<const FactorKind> kinds,
 /// "numeric": D}]}]} with D = {"absolute", "relative", "worst_state"}; null for what is not finite.
 std::string to_json(const JacobianAudit& audit);
 
-/// Reads to_json's text. \throws std::runtime_error saying what is wrong with it.
-JacobianAudit audit_from_json(const std::string& text);
+/// Reads what to_json() wrote. \throws files::InputError naming the file and the key.
+JacobianAudit audit_from_json(const files::JsonValue& json);
 
 }  // namespace traverse::optimization

@@ -8,7 +8,7 @@ namespace traverse::pipeline {
 
 /// The program that made a result.
 struct BuildInfo {
-  std::string version;     ///< "0.1.0"
+  std::string version;     ///< "0.2.0"
   std::string commit;      ///< "1a2b3c4", with "-dirty" when the sources were changed; or "unknown"
   std::string build_type;  ///< "Release"
   std::string compiler;    ///< "GNU 12.2.0"

@@ -30,17 +30,20 @@ struct RunObserver {
   std::function<void(std::size_t done)> frame = [](std::size_t) {};
   /// The frames are through; what follows takes time too: "map", "evaluation".
   std::function<void(const std::string& stage)> stage = [](const std::string&) {};
-  /// Set from a signal handler: the run ends after the present frame and writes what it has.
+  /// Once it is true the run ends after the present frame and writes what it has.
   const std::atomic<bool>* stop = nullptr;
 };
 
 /// Feeds the recording to the pipeline's estimator and writes the run folder: trajectory,
 /// reference, frames.csv, maps, a sample scan, evaluation.json and, last, run.json.
-/// \returns the record that was written; its status is kOk or kInterrupted. A stop before the
-/// first frame is thrown, for there is nothing to write; its record says interrupted, too.
-/// \throws what reading, estimating and writing throw; run.json then says "failed" and why, if the
-/// folder can still be written.
-RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& folder,
-              const RunOptions& options, const RunObserver& observer);
+///
+/// A run that is stopped or fails in the middle (the recording cannot be read on, the estimator
+/// gives up, memory or disk are full) writes what was estimated before, as far as that can be done.
+/// \param folder absent or empty
+/// \returns the record that was written, whose status and reason say how it went. Without a frame
+/// (`frames_used`) there is nothing but that record.
+/// \throws files::OutputError if the folder cannot be made, or not even run.json be written
+[[nodiscard]] RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& folder,
+                            const RunOptions& options, const RunObserver& observer);
 
 }  // namespace traverse::pipeline

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
+#include <vector>
 
 namespace traverse::pipeline {
 
@@ -37,8 +39,16 @@ struct RunFolder {
   std::filesystem::path report() const { return path / "report.html"; }
   std::filesystem::path report_json() const { return path / "report.json"; }
 
-  /// Makes the folder and removes what an earlier run left in these places, so that results never
-  /// mix; files of other names stay. \throws files::OutputError if it cannot be written.
+  /// Where `report` works until its files are complete; gone afterwards.
+  std::filesystem::path report_work() const { return path / ".report.traverse-work"; }
+
+  /// All of these files, whether they are there or not, without the pictures in images().
+  std::vector<std::filesystem::path> files() const;
+
+  /// Whether a file of this name in images() is one of a run's pictures: "map-height_dark.png".
+  static bool is_picture(std::string_view file_name);
+
+  /// Makes the folder. \throws files::OutputError if it cannot be written or something is in it.
   void prepare() const;
 };
 

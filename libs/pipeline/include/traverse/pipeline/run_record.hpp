@@ -75,6 +75,10 @@ void summarise_timing(const FrameTable& frames, RunRecord& record);
 /// The record as JSON text; docs/run-folder.md describes it.
 std::string to_json(const RunRecord& record, const BuildInfo& build, const HostInfo& host);
 
+/// Writes run.json as this program on this machine. \throws files::OutputError
+struct RunFolder;
+void write_record(const RunFolder& folder, const RunRecord& record);
+
 /// SHA-256 of the resolved settings as they stand in run.json: equal for equal configurations.
 std::string configuration_sha256(const std::vector<ResolvedSetting>& settings);
 

@@ -69,6 +69,7 @@ struct Level {
 
 /// Outcome of one optimisation.
 struct Result {
+  bool is_usable = false;  ///< if not, nothing was moved, and the message says why
   bool converged = false;
   std::string message;      ///< the solver's last word
   int stages = 0;           ///< of the graduation, the last one included
@@ -129,7 +130,8 @@ class PoseGraph {
   /// \throws std::invalid_argument as above
   void add_gravity(NodeId i, const Eigen::Vector3d& up_body, double sigma_rad);
 
-  /// Moves the poses. The same bits on every repeat (one thread).
+  /// Moves the poses. The same bits on every repeat (one thread). Where it cannot be solved (a
+  /// measurement that is not finite) the graph is left as it was.
   /// \param start  kGuesses makes the outcome independent of when optimise() was called before
   Result optimise(Start start = Start::kLastSolution);
 

@@ -12,7 +12,7 @@
 #include "traverse/dataset/source.hpp"
 #include "traverse/pipeline/preset.hpp"
 #include "traverse/pipeline/registry.hpp"
-#include "traverse/pipeline/run_folder.hpp"
+#include "traverse/pipeline/run_contents.hpp"
 #include "traverse/replay/run_estimator.hpp"
 
 namespace traverse::replay {
@@ -22,7 +22,8 @@ class Recording {
  public:
   /// Opens a recording, or the recording of a run folder (a folder with run.json).
   /// \param moved_to where the recording of a run is now; empty: where it was
-  /// \throws files::InputError, also for a run folder whose recording is not there.
+  /// \throws files::InputError, also for a run folder whose recording is not there, and as
+  /// pipeline::read_run().
   static Recording open(const std::filesystem::path& file_or_run,
                         const dataset::OpenOptions& options,
                         const std::filesystem::path& moved_to = {});
@@ -42,14 +43,18 @@ class Recording {
 
   /// The estimator that replays: the preset's; of a run folder the run itself; and without a 3-D
   /// lidar the recording's own path.
-  /// \throws as pipeline::load_preset() and pipeline::make_pipeline()
+  /// \throws as pipeline::load_preset() and pipeline::make_pipeline(); of a run files::InputError
+  /// that names run.json
   pipeline::Pipeline make_pipeline(const pipeline::PresetRequest& request, int threads) const;
 
  private:
   struct Run {
-    pipeline::RunFolder folder;
+    std::shared_ptr<const pipeline::RunContents> contents;  // shared by copies
     RunFacts facts;
   };
+
+  /// The estimator that the run was made with.
+  pipeline::Pipeline pipeline_of_run(const Run& run, int threads) const;
 
   std::filesystem::path path_;
   dataset::OpenOptions options_;

@@ -8,7 +8,7 @@
 
 #include "traverse/pipeline/estimator.hpp"
 #include "traverse/pipeline/preset.hpp"
-#include "traverse/pipeline/run_folder.hpp"
+#include "traverse/pipeline/run_contents.hpp"
 
 namespace traverse::replay {
 
@@ -21,14 +21,13 @@ struct RunFacts {
   std::size_t frames = 0;  ///< with a pose
 };
 
-/// \throws files::InputError if run.json is not there or is not one.
-RunFacts read_run_facts(const pipeline::RunFolder& folder);
+/// Of a run that was read. \throws files::InputError if the record names no recording
+RunFacts run_facts(const pipeline::RunContents& run);
 
 /// The frames of a run folder in place of an estimator: poses and health records as the run wrote
 /// them, given out with the scans that they belong to. Nothing is estimated.
 /// \param estimator the run's own, unused yet: it tells how a scan was corrected
-/// \throws files::InputError if the folder's files cannot be read or do not agree.
 std::unique_ptr<pipeline::Estimator> make_run_estimator(
-    const pipeline::RunFolder& folder, std::unique_ptr<pipeline::Estimator> estimator);
+    const pipeline::RunContents& run, std::unique_ptr<pipeline::Estimator> estimator);
 
 }  // namespace traverse::replay

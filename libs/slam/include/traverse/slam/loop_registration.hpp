@@ -14,7 +14,7 @@ struct LoopRegistrationOptions {
   voxel_map::AlignmentOptions alignment;
   double start_spacing_m = 1;  ///< between the starts of the search, in the ground plane
   double start_spacing_deg = 5;
-  int most_starts = 400;
+  int most_starts = 400;       ///< about so many: a grid's rim can add as many again
   double on_surface_m = 0.15;  ///< a point so near a plane or line lies on it
 };
 void bind(config::Binder& binder, LoopRegistrationOptions& options);
@@ -30,11 +30,12 @@ struct LoopRegistration {
 /// How far around a first guess the pose is searched.
 struct SearchRegion {
   double radius_m = 0;       ///< in the ground plane of the guess
-  double half_turn_rad = 0;  ///< about its z
+  double half_turn_rad = 0;  ///< about its z; more than half a turn is all around
 };
 
 /// Starts that cover the region: on a grid, from the inside out, the guess first. When there would
-/// be too many the grid is coarser.
+/// be too many the grid is coarser, so that however large the region is, they are at most three
+/// times most_starts.
 std::vector<geometry::Pose3> starts_around(const geometry::Pose3& guess, const SearchRegion& region,
                                            const LoopRegistrationOptions& options);
 

@@ -12,7 +12,7 @@ namespace traverse::slam {
 /// way, so that adding and finding take a time that grows with the logarithm of their number.
 /// Source: Malkov and Yashunin, "Efficient and robust approximate nearest neighbor search using
 /// hierarchical navigable small world graphs", PAMI 2020. A near one can be missed (about one in a
-/// hundred).
+/// hundred). Equal keys, as a simulation without noise makes them, are one node.
 ///
 /// The same answers for the same keys in the same order.
 class RingKeyIndex {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "traverse/config/binder.hpp"
@@ -99,7 +100,11 @@ class Slam {
   const pose_graph::PoseGraph& graph() const { return graph_; }
   /// The factors that its graph solves with; a run checks their Jacobians.
   std::vector<optimization::FactorUse> graph_factors() const;
+  /// The last one that could be used.
   const std::optional<pose_graph::Result>& solution() const { return solution_; }
+  /// Why the graph could not be solved when it was to be, last; empty if it could. Its poses are
+  /// those of the solution before, or odometry's.
+  const std::string& failure() const { return failure_; }
   /// Whether anything but odometry is in the graph; else the map is odometry's.
   bool is_corrected() const { return solution_.has_value(); }
 
@@ -139,6 +144,7 @@ class Slam {
   std::optional<std::size_t> last_accepted_;           ///< in loops_
   std::size_t unsolved_loops_ = 0;
   std::optional<pose_graph::Result> solution_;
+  std::string failure_;
 };
 
 }  // namespace traverse::slam

@@ -1,0 +1,182 @@
+#include "traverse/pipeline/run_contents.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "traverse/dataset/trajectory_files.hpp"
+#include "traverse/evaluation/json.hpp"
+#include "traverse/files/input_error.hpp"
+#include "traverse/files/json_document.hpp"
+#include "traverse/files/text_file.hpp"
+
+#include "evaluation_check.hpp"
+#include "frames_check.hpp"
+#include "next_step.hpp"
+#include "points_check.hpp"
+#include "record_check.hpp"
+
+namespace traverse::pipeline {
+
+namespace {
+
+using files::InputError;
+using files::Place;
+namespace fs = std::filesystem;
+
+constexpr double kFarthest_m = 1e9;  // from the origin of the map: nothing drives there
+
+geometry::Trajectory read_path(const fs::path& file) {
+  geometry::Trajectory path = dataset::read_trajectory(file, dataset::TrajectoryFormat::kTum);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (path.pose(i).translation.cwiseAbs().maxCoeff() <= kFarthest_m) continue;
+    throw InputError(file, {fmt::format("pose {}", i)},
+                     fmt::format("positions within {:.0e} m", kFarthest_m), "one farther off");
+  }
+  return path;
+}
+
+void require_odometry(const RunContents& run) {
+  if (run.odometry->stamps() == run.estimate.stamps()) return;
+  throw InputError(run.folder.odometry(), Place::whole_file(),
+                   fmt::format("{} poses with the stamps of trajectory.tum", run.estimate.size()),
+                   run.odometry->size() == run.estimate.size()
+                       ? "other stamps"
+                       : fmt::format("{} poses", run.odometry->size()));
+}
+
+/// The stamps of the frames that became keyframes, if the run says which ones did.
+std::optional<std::vector<geometry::Stamp>> keyframe_stamps(const RunContents& run) {
+  if (!run.frames.has("keyframe")) return std::nullopt;
+  const std::vector<double> is_keyframe = run.frames.column("keyframe");
+  std::vector<geometry::Stamp> stamps;
+  for (std::size_t i = 0; i < is_keyframe.size(); ++i) {
+    if (is_keyframe[i] != 0) stamps.push_back(run.estimate.stamp(i));
+  }
+  return stamps;
+}
+
+void require_loops(const RunContents& run) {
+  const auto stamps = keyframe_stamps(run);
+  const std::vector<slam::Loop>& loops = *run.loops;
+  for (std::size_t k = 0; k < loops.size(); ++k) {
+    const slam::Loop& loop = loops[k];
+    const auto fail = [&](const std::string& expected, const std::string& found) {
+      throw InputError(run.folder.loops(), {fmt::format("loop {}", k)}, expected, found);
+    };
+    if (loop.candidate >= loop.keyframe) {
+      fail("a candidate before its keyframe",
+           fmt::format("{} and {}", loop.candidate, loop.keyframe));
+    }
+    for (const double value : {loop.overlap, loop.residual_rms_m, loop.odometry_chi2,
+                               loop.graph_chi2, loop.weight, loop.correction_m}) {
+      if (std::isnan(value)) fail("numbers", "nan");
+    }
+    if (!stamps) continue;
+    if (loop.keyframe >= stamps->size()) {
+      fail(fmt::format("one of the {} keyframes of frames.csv", stamps->size()),
+           fmt::format("number {}", loop.keyframe));
+    }
+    if (loop.stamp != (*stamps)[loop.keyframe] ||
+        loop.candidate_stamp != (*stamps)[loop.candidate]) {
+      fail(fmt::format("the stamps of keyframes {} and {} in trajectory.tum", loop.candidate,
+                       loop.keyframe),
+           fmt::format("{} and {}", to_text(loop.candidate_stamp), to_text(loop.stamp)));
+    }
+  }
+}
+
+void read_frame_files(RunContents& run, RunPart part) {
+  run.record_json = files::read_text(run.folder.record());
+  const auto document = files::JsonDocument::parse(run.record_json, run.folder.record());
+  const files::JsonValue record = document.root();
+  require_run_record(record);
+  // Before anything is looked for that a failed run need not have.
+  if (part >= RunPart::kFigures && record["status"].text() == "failed" &&
+      !fs::exists(run.folder.trajectory())) {
+    throw record["status"].error("a run that has results", "failed: " + record["reason"].text());
+  }
+  run.estimate = read_path(run.folder.trajectory());
+  run.frames = FrameTable::read_csv(run.folder.frames());
+  require_frames(run.frames, run.estimate, record, run.folder);
+}
+
+void read_figure_files(RunContents& run) {
+  const RunFolder& folder = run.folder;
+  run.evaluation = evaluation::read_evaluation(folder.evaluation());
+  require_evaluation(run.evaluation, folder.evaluation(), run.estimate, folder.trajectory(),
+                     run.reference);
+  if (!fs::exists(folder.loops())) return;
+  run.odometry = read_path(folder.odometry());
+  require_odometry(run);
+  run.odometry_evaluation = evaluation::read_evaluation(folder.odometry_evaluation());
+  require_evaluation(*run.odometry_evaluation, folder.odometry_evaluation(), *run.odometry,
+                     folder.odometry(), run.reference);
+  run.loops = slam::read_loops(folder.loops());
+  require_loops(run);
+}
+
+/// The cloud of the file, if there is one, with x, y and z.
+std::optional<dataset::PointCloud> read_points(const fs::path& file) {
+  if (!fs::exists(file)) return std::nullopt;
+  dataset::PointCloud cloud = dataset::read_point_cloud(file);
+  for (const char* axis : {"x", "y", "z"}) {
+    require_values(cloud, file, axis, -kFarthest_m, kFarthest_m, IsWhole::kNo);
+  }
+  return cloud;
+}
+
+/// A run leaves no file of nothing.
+void require_points(const dataset::PointCloud& cloud, const fs::path& file) {
+  if (cloud.size() == 0) throw InputError(file, Place::whole_file(), "at least one point", "none");
+}
+
+void read_other_files(RunContents& run) {
+  const RunFolder& folder = run.folder;
+  const files::JsonDocument record = files::JsonDocument::parse(run.record_json, folder.record());
+  if (auto map = read_points(folder.map_points())) {
+    require_size(*map, folder.map_points(), record.root()["map"]["points"].count());
+    require_values_if_there(*map, folder.map_points(), "intensity", -kFarthest_m, kFarthest_m,
+                            IsWhole::kNo);
+    run.map = std::move(*map);
+  }
+  run.sample_scan = read_points(folder.sample_scan());
+  if (run.sample_scan) {
+    require_points(*run.sample_scan, folder.sample_scan());
+    require_values_if_there(*run.sample_scan, folder.sample_scan(), "feature_class", 0, 4,
+                            IsWhole::kYes);
+  }
+  run.worst_frames = read_points(folder.worst_frames());
+  if (run.worst_frames) {
+    require_points(*run.worst_frames, folder.worst_frames());
+    require_worst_frames(*run.worst_frames, folder, run.frames);
+  }
+  if (fs::exists(folder.jacobians())) {
+    run.jacobians =
+        optimization::audit_from_json(files::JsonDocument::read(folder.jacobians()).root());
+  }
+  if (fs::exists(folder.factor_bench())) {
+    run.factor_bench =
+        loam::factor_bench_from_json(files::JsonDocument::read(folder.factor_bench()).root());
+  }
+}
+
+}  // namespace
+
+RunContents read_run(const RunFolder& folder, RunPart part) {
+  return with_next_step([&] {
+    RunContents run;
+    run.folder = folder;
+    read_frame_files(run, part);
+    if (part >= RunPart::kReference && fs::exists(folder.reference())) {
+      run.reference = read_path(folder.reference());
+    }
+    if (part >= RunPart::kFigures) read_figure_files(run);
+    if (part >= RunPart::kAll) read_other_files(run);
+    return run;
+  });
+}
+
+}  // namespace traverse::pipeline
