@@ -86,7 +86,7 @@ std::string trouble_text(const TroubledScan& scan) {
 
 std::string lidar_text(const std::string& sensor, const LidarSurvey& lidar) {
   Table table({{}, {Table::Align::kLeft, 90}});
-  table.add_row({"points a scan", spread_text(lidar.points) + "  (least / median / most)"});
+  table.add_row({"points per scan", spread_text(lidar.points) + "  (least / median / most)"});
   table.add_row({"rings", rings_text(lidar)});
   table.add_row({"intensity", lidar.has_intensity ? "yes" : "no"});
   table.add_row(

@@ -416,8 +416,9 @@ void add_run(CLI::App& app) {
       "close loops over the odometry, or not; else as the preset says");
   run->add_flag("--bench-factors", arguments->bench_factors,
                 "measure analytic, automatic and numeric derivatives on a frame of the run");
-  run->add_option("--drop-gnss", arguments->gnss_outages,
-                  "keep fixes back for spells of so many seconds, and tell the error after each")
+  run->add_option(
+         "--drop-gnss", arguments->gnss_outages,
+         "withhold fixes for GNSS outages of so many seconds, and tell the error after each")
       ->type_name("10,30,60");
 }
 

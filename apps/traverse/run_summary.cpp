@@ -56,7 +56,7 @@ void print_run_summary(const pipeline::RunRecord& record, const pipeline::RunFol
                fmt::format("entropy (MME) {:.3f}, {} points ({})", evaluation.consistency->mme,
                            record.map_points, record.points_are));
   }
-  print_line("time", fmt::format("{:.1f} ms a frame (median), {:.1f} ms at 95 %, {} thread{}",
+  print_line("time", fmt::format("{:.1f} ms per frame (median), {:.1f} ms at 95 %, {} thread{}",
                                  record.frame_median_ms, record.frame_p95_ms, record.threads,
                                  record.threads == 1 ? "" : "s"));
   print_line("run", folder.path.string());

@@ -40,7 +40,7 @@ TEST_F(RecordingCommands, InfoTellsWhatThereIs) {
   EXPECT_EQ(result.status, 0) << result.messages;
   EXPECT_THAT(result.output, AllOf(HasSubstr("KITTI odometry"), ContainsRegex("velodyne +lidar +4"),
                                    ContainsRegex("motion compensated +yes +scans of the KITTI"),
-                                   ContainsRegex("points a scan +200 / 200 / 200"),
+                                   ContainsRegex("points per scan +200 / 200 / 200"),
                                    HasSubstr("Reference: none"), HasSubstr("Skipped records: 1"),
                                    HasSubstr("velodyne/000002.bin (found 17 bytes)")));
   EXPECT_THAT(result.messages, HasSubstr("reading drive"));  // progress is not output

@@ -137,7 +137,7 @@ TEST(Titles, SayHowAFigureWasMade) {
   EXPECT_EQ(
       title(*c.kitti),
       "KITTI drift, body frame, no alignment, 131 segments of 100 to 800 m, one start every 10 "
-      "poses, 0.1 s a pose");
+      "poses, 0.1 s per pose");
 }
 
 TEST(Table, ShowsEveryFigureWithUnitAndOrigin) {

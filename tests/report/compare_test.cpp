@@ -56,7 +56,7 @@ TEST_F(Compare, TellsWhatIsBetterAndWhatIsTheSame) {
   const std::string table = compare({run("bad", 1.0), run("good", 0.1), run("same", 1.0)});
   EXPECT_EQ(verdict("good", "RPE over 10 frames"), "improved");
   EXPECT_EQ(verdict("same", "RPE over 10 frames"), "no change");
-  EXPECT_EQ(verdict("good", "Time a frame"), "no change");
+  EXPECT_EQ(verdict("good", "Time per frame"), "no change");
   EXPECT_THAT(table, HasSubstr("good: 3 improved; same: nothing changed;"));
   EXPECT_EQ(json()["tables"]["wins"]["rows"][0][1], 0);  // the bad one is best nowhere
 }
@@ -70,7 +70,7 @@ TEST_F(Compare, TheOtherWayRoundItHasRegressed) {
 
 TEST_F(Compare, WithoutAReferenceTimesAreCompared) {
   compare({run("a", 0.1, false), run("b", 0.1, false)});
-  EXPECT_EQ(verdict("b", "Time a frame"), "no change");
+  EXPECT_EQ(verdict("b", "Time per frame"), "no change");
   EXPECT_EQ(verdict("b", "APE"), nullptr);
 }
 

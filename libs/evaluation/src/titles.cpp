@@ -76,7 +76,7 @@ std::string title(const Rpe& rpe, const Comparison& comparison) {
 
 std::string title(const KittiDrift& kitti) {
   return fmt::format(
-      "KITTI drift, {} frame, no alignment, {} of {} to {} m, one start every {}, {} s a pose",
+      "KITTI drift, {} frame, no alignment, {} of {} to {} m, one start every {}, {} s per pose",
       kitti.frame, counted(kitti.segments.size(), "segment"), kKittiLengths_m.front(),
       kKittiLengths_m.back(), counted(kitti.step, "pose"), kitti.frame_seconds);
 }

@@ -174,7 +174,7 @@ class Navigation::Impl {
       begin(*first);
     }
     const bool is_out = outages_.is_out(fix.stamp);
-    if (is_out) ++events["fix kept back on purpose"];
+    if (is_out) ++events["fix withheld on purpose"];
     // The wheels make states meanwhile, where there are any.
     const bool by_wheels = options_.wheels.use && wheel_speed_.is_fresh();
     if (is_out && (by_wheels || is_close_to_newest(fix.stamp))) return;

@@ -40,7 +40,7 @@ void bind_common(Binder& b, NavigationOptions& o, bool with_length) {
     bind(g, o.window);
   });
   b.group("start", "how the first state is found", [&](Binder& g) { bind(g, o.start); });
-  b.group("outage", "fixes kept back on purpose", [&](Binder& g) { bind(g, o.outage); });
+  b.group("outage", "fixes withheld on purpose", [&](Binder& g) { bind(g, o.outage); });
 }
 
 }  // namespace
@@ -118,7 +118,8 @@ void bind(Binder& b, StartOptions& o) {
 }
 
 void bind(Binder& b, OutageOptions& o) {
-  b.numbers("spells_s", o.spells_s, "for which fixes are kept back, seconds");
+  b.numbers("spells_s", o.spells_s,
+            "lengths of GNSS outages, for which fixes are withheld, seconds");
   b.number("first_s", o.first_s, Range::non_negative(), "from the start to the first");
   b.number("between_s", o.between_s, Range::non_negative(), "from the end of one to the next");
 }

@@ -32,7 +32,8 @@ void bind(config::Binder& b, SlamEstimatorOptions& o) {
     g.flag("use", o.gnss.use, "let fixes hold the map, where there are any");
     g.number("sigma_m", o.gnss.sigma_m, Range::positive(),
              "of a fix that does not tell its covariance");
-    g.number("least_sigma_m", o.gnss.least_sigma_m, Range::positive(), "believed of any fix");
+    g.number("least_sigma_m", o.gnss.least_sigma_m, Range::positive(),
+             "smallest standard deviation of a fix that is used");
   });
   b.group("gravity", "up by the recording's first IMU", [&](config::Binder& g) {
     g.flag("use", o.gravity.use, "let gravity hold roll and pitch, where there is an IMU");
@@ -189,7 +190,7 @@ std::string SlamEstimator::gravity_note() const {
   }
   return fmt::format(
       "{} directions of up by {} (sigma {:.3f} deg, chi-square {:.2f} a degree of freedom, {} "
-      "rejected), off by {:.3f} deg in common; {} more have not the length of gravity",
+      "rejected), off by {:.3f} deg in common; {} more do not have the length of gravity",
       levels.size(), imu_, statistics::median(sigmas_deg), chi2, rejected,
       slam_.graph().up_offset().norm() * 180 / std::numbers::pi, gravity_->turned_away());
 }

@@ -141,7 +141,7 @@ void add_health(const pipeline::FrameTable& frames, Json& charts) {
               100, charts);
   add_columns(frames, {"matches", "health", "Matches", ""},
               {{"lines", "line_matches"}, {"planes", "plane_matches"}}, true, 1, charts);
-  Chart eigenvalues("eigenvalues", "health", "Eigenvalues of the information a match", "");
+  Chart eigenvalues("eigenvalues", "health", "Eigenvalues of the information per match", "");
   eigenvalues.flag("log");
   add_columns(frames, eigenvalues,
               {{"1", "eigenvalue_1"},

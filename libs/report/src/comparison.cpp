@@ -207,7 +207,7 @@ void add_comparison_charts(const std::vector<ComparedRun>& runs, Model& model) {
   for (const auto& [id, title, unit, by_frame] :
        {std::tuple{"ape_rmse_m", "APE, position", "m", false},
         std::tuple{"rpe_10_frames_rmse_m", "RPE over 10 frames", "m", false},
-        std::tuple{"frame_median_ms", "Time a frame", "ms", true}}) {
+        std::tuple{"frame_median_ms", "Time per frame", "ms", true}}) {
     Json list = Json::array();
     for (const ComparedRun& run : runs) {
       const Series series = series_of(run.data, id);

@@ -37,7 +37,7 @@ void add_trajectories(const RunData& run, FigureMaker& maker) {
   const std::string against =
       reference != nullptr ? " against the reference (dashed), after alignment" : "";
   maker.add(
-      "trajectory", "trajectory-above", "The way from above" + against + ".",
+      "trajectory", "trajectory-above", "Trajectory from above" + against + ".",
       [&](const Style& style) {
         return render::trajectory_from_above(
             named, reference, maker.caption("Trajectory from above", path_statistic(run)), style,

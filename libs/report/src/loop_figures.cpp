@@ -41,10 +41,10 @@ void add_loop_figures(const RunData& run, FigureMaker& maker) {
     accepted += loop.is_accepted() ? 1 : 0;
   }
   const std::string statistic =
-      fmt::format("{} loops closed, {} candidates turned away", count_text(accepted),
+      fmt::format("{} loops closed, {} candidates rejected", count_text(accepted),
                   count_text(marks.size() - accepted));
   maker.add("loops", "loops-above",
-            "Where loops were closed (dots), and which places were held for one and turned away "
+            "Where loops were closed (dots), and which candidates were rejected "
             "(lines between the two).",
             [&](const render::Style& style) {
               return render::loops_from_above(optimised, accepted > 0 ? &odometry : nullptr, marks,

@@ -117,7 +117,7 @@ void add_maps(const RunData& run, FigureMaker& maker) {
   const std::vector<float> intensity = floats(run.map, "intensity");
   const render::MapPoints points{x, y, z, Eigen::Vector3d::Zero()};
   maker.add(
-      "map", "map-height", "The map from above, coloured by height, with the way in it.",
+      "map", "map-height", "The map from above, coloured by height, with the trajectory.",
       [&](const Style& style) {
         return render::map_from_above(points, {}, &run.estimate,
                                       maker.caption("Map by height", map_statistic(run)), style,

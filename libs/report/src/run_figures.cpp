@@ -137,8 +137,8 @@ const std::vector<FigureKind>& figure_kinds() {
       {"lost_frames", "Lost frames", "", "frames that could not be registered"},
       {"degenerate_frames", "Degenerate frames", "", "frames that do not determine their motion"},
       {"skipped_records", "Skipped records", "", "records that could not be used"},
-      {"frame_median_ms", "Time a frame", "ms", "median time of the estimator"},
-      {"frame_p95_ms", "Time a frame, 95 %", "ms", "95th percentile of it"},
+      {"frame_median_ms", "Time per frame", "ms", "median time of the estimator"},
+      {"frame_p95_ms", "Time per frame, 95 %", "ms", "95th percentile of it"},
       {"frame_max_ms", "Slowest frame", "ms", "the largest of it"},
       {"wall_seconds", "Whole run", "s", "wall time of the run with its maps and evaluation"},
       {"peak_memory_mb", "Memory", "MB", "largest memory of the run"}};

@@ -36,7 +36,7 @@ std::string sentence(const RunData& run, const std::vector<RunFigure>& figures) 
                                 short_number(run.estimate.path_length())));
   }
   parts.push_back(
-      fmt::format("{} ms a frame", short_number(find_figure(figures, "frame_median_ms")->value)));
+      fmt::format("{} ms per frame", short_number(find_figure(figures, "frame_median_ms")->value)));
   parts.push_back(skipped_words(skipped_records(run.record)));
   return fmt::format("{}.", fmt::join(parts, "; "));
 }

@@ -154,7 +154,7 @@ void add_map_around(const Shown& shown, const Points& map, FigureMaker& maker) {
   maker.add_sized(
       "worst", shown.picture(),
       fmt::format("Number {} of the worst segments, {}: the map around it, by height, and the "
-                  "estimated way.",
+                  "estimated trajectory.",
                   shown.place, shown.frames),
       [&](const render::Style& style) {
         return render::map_from_above(

@@ -87,7 +87,7 @@ void bind(config::Binder& b, GravityOptions& o) {
   b.number("acceleration_share", o.acceleration_share, Range::non_negative(),
            "of the vehicle's acceleration what is believed to remain");
   b.number("least_sigma_deg", o.least_sigma_deg, Range::positive(),
-           "the least believed of a direction");
+           "smallest standard deviation of a direction that is used");
   b.number("most_gap_s", o.most_gap_s, Range::positive(),
            "between samples; slower ones do not see how a vehicle shakes");
   b.number("most_off_m_s2", o.most_off_m_s2, Range::positive(),

@@ -67,7 +67,7 @@ void bind(config::Binder& b, StepNoiseOptions& o) {
   b.number("inflation", o.inflation, Range::positive(),
            "of the covariance from the solver's information");
   b.number("drift_m_per_sqrt_m", o.drift_m_per_sqrt_m, Range::positive(),
-           "a random walk beside it, by the way gone");
+           "a random walk beside it, per path length");
   b.number("drift_deg_per_sqrt_m", o.drift_deg_per_sqrt_m, Range::positive(),
            "a random walk of the attitude");
   b.number("unregistered_m", o.unregistered_m, Range::non_negative(),

@@ -21,7 +21,8 @@ void bind(config::Binder& b, LoopChecks& o) {
   b.number("agreement_deg", o.agreement_deg, Range::positive(), "and this");
   b.number("inflation", o.inflation, Range::positive(),
            "of the covariance from the solver's information");
-  b.number("least_sigma_m", o.least_sigma_m, Range::positive(), "the least believed of a loop");
+  b.number("least_sigma_m", o.least_sigma_m, Range::positive(),
+           "smallest standard deviation of a loop that is used");
   b.number("least_sigma_deg", o.least_sigma_deg, Range::positive(), "the same of its rotation");
 }
 
@@ -35,7 +36,7 @@ void bind(config::Binder& b, SlamOptions& o) {
           [&](config::Binder& g) { bind(g, o.candidates); });
   b.group("submap", "surroundings of a candidate", [&](config::Binder& g) { bind(g, o.submap); });
   b.integer("submap_every", o.submap_every, Range::between(1, 1000),
-            "submaps are centred at every so manieth keyframe");
+            "submaps are centred at every n-th keyframe");
   b.group("registration", "of a keyframe in a submap",
           [&](config::Binder& g) { bind(g, o.registration); });
   b.group("loops", "what a loop must satisfy", [&](config::Binder& g) { bind(g, o.loops); });

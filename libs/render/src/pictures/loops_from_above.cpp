@@ -49,7 +49,7 @@ Drawing loops_from_above(const geometry::Trajectory& optimised,
   std::vector<LegendEntry> entries{{"optimised", palette::series(0), Sample::kLine}};
   if (!raw.empty()) entries.push_back({"odometry", palette::series(1), Sample::kLine});
   if (has(loops, true)) entries.push_back({"loop closed here", kAccepted, Sample::kPoint});
-  if (has(loops, false)) entries.push_back({"turned away", kTurnedAway, Sample::kLine});
+  if (has(loops, false)) entries.push_back({"rejected", kTurnedAway, Sample::kLine});
 
   const Rect page = draw_title_block(canvas, caption, "Loops from above");
   const Rect outer = draw_legend_above(canvas, entries, page, "y [m]");

@@ -38,7 +38,7 @@ void bind(config::Binder& b, GnssSettings& s) {
   b.flag("mounted", s.mounted, "the vehicle has a receiver");
   bind(b, s.mounting);
   b.choice("mode", s.mode, kModes, "how good its positions are");
-  b.number("rate_hz", s.rate_hz, Range::between(0.1, 100), "fixes a second");
+  b.number("rate_hz", s.rate_hz, Range::between(0.1, 100), "fixes per second");
   b.flag("dual_antenna", s.dual_antenna, "gives headings");
   b.number("heading_noise_deg", s.heading_noise_deg, Range::between(0, 90), "deviation");
   b.numbers("outages_s", s.outages_s, "from and to by turns, seconds of the drive");

@@ -34,7 +34,7 @@ Pair draw(const CounterNoise& noise, std::uint64_t major, std::uint32_t use) {
 void bind(config::Binder& b, ImuSettings& s) {
   b.flag("mounted", s.mounted, "the vehicle has an IMU");
   bind(b, s.mounting);
-  b.number("rate_hz", s.rate_hz, Range::between(1, 2000), "samples a second");
+  b.number("rate_hz", s.rate_hz, Range::between(1, 2000), "samples per second");
   b.number("gyro_noise", s.gyro_noise, Range::non_negative(), "density, rad/s/sqrt(Hz)");
   b.number("accel_noise", s.accel_noise, Range::non_negative(), "density, m/s^2/sqrt(Hz)");
   b.number("gyro_bias_walk", s.gyro_bias_walk, Range::non_negative(), "density, rad/s^2/sqrt(Hz)");

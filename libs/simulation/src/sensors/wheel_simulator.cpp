@@ -16,7 +16,7 @@ constexpr std::uint64_t kConstant = ~std::uint64_t{0};  ///< place of what is dr
 
 void bind(config::Binder& b, WheelSettings& s) {
   b.flag("mounted", s.mounted, "the vehicle counts its wheels' pulses");
-  b.number("rate_hz", s.rate_hz, Range::between(1, 1000), "samples a second");
+  b.number("rate_hz", s.rate_hz, Range::between(1, 1000), "samples per second");
   b.number("radius_m", s.radius_m, Range::between(0.02, 2), "of the wheels, nominal");
   b.number("track_m", s.track_m, Range::between(0.05, 5), "between the wheels");
   b.number("pulses_per_turn", s.pulses_per_turn, Range::between(1, 1e6), "of each wheel");

@@ -14,7 +14,7 @@ namespace traverse::report {
 /// One limit of a budget and what was found.
 struct BudgetLine {
   std::string figure;           ///< "frame_median_ms"
-  std::string label;            ///< "Time a frame"
+  std::string label;            ///< "Time per frame"
   std::string unit;             ///< "ms"; empty for counts
   double limit = 0;             ///< at most so much
   std::optional<double> value;  ///< nothing where the run does not define the figure
