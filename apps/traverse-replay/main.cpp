@@ -9,6 +9,7 @@
 
 #include "traverse/replay/script.hpp"
 
+#include "bash_completion.hpp"
 #include "console.hpp"
 #include "error_text.hpp"
 #include "interruption.hpp"
@@ -140,6 +141,7 @@ int main(int argc, char** argv) {
   bool help_script = false;
   traverse::app::add_options(app, request);
   app.add_flag("--help-script", help_script, "list the commands of a script and exit");
+  traverse::app::add_bash_completion(app);
   int status = kFailure;
   try {
     try {

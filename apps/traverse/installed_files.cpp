@@ -26,8 +26,6 @@ InstalledFiles find_installed_files() {
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
   const fs::path installed = program.parent_path().parent_path() / "share/traverse";
   places.push_back({installed, installed / "templates"});
-  const fs::path source = TRAVERSE_SOURCE_DIR;
-  places.push_back({source / "share", source / "reports/templates"});
 
   std::string looked_at;
   for (const InstalledFiles& files : places) {

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 
+#include "bash_completion.hpp"
 #include "commands.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
@@ -39,5 +40,6 @@ int main(int argc, char** argv) {
   traverse::app::add_pipelines(app);
   traverse::app::add_check_jacobians(app);
   traverse::app::add_bench_factors(app);
+  traverse::app::add_bash_completion(app);
   return traverse::app::exit_status(app, argc, argv);
 }

@@ -81,24 +81,35 @@ function(traverse_precompile target holder)
     target_link_libraries(${holder} PRIVATE Eigen3::Eigen fmt::fmt ${ARG_FLAGS})
     target_precompile_headers(${holder} PRIVATE ${TRAVERSE_COMMON_HEADERS} ${ARG_HEADERS})
   endif()
-  target_link_libraries(${target} PRIVATE Eigen3::Eigen fmt::fmt ${ARG_FLAGS})
+  foreach(library IN LISTS ARG_FLAGS ITEMS Eigen3::Eigen fmt::fmt)
+    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:${library}>)
+  endforeach()
   target_precompile_headers(${target} REUSE_FROM ${holder})
 endfunction()
 
 # traverse_library(NAME SOURCES ... [USES ...] [PRIVATELY_USES ...])
 #
-# Defines traverse::NAME from libs/NAME. USES are the libraries that its public headers show,
-# PRIVATELY_USES those that stay behind its sources.
+# Defines traverse::NAME from libs/NAME; installed with its public headers it is Traverse::NAME. USES
+# are the libraries that its public headers show, PRIVATELY_USES those that stay behind its sources.
 function(traverse_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;USES;PRIVATELY_USES" ${ARGN})
   add_library(traverse_${name} STATIC ${ARG_SOURCES})
   add_library(traverse::${name} ALIAS traverse_${name})
   target_include_directories(traverse_${name}
-    PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include
+    PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
     PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
-  target_link_libraries(traverse_${name}
-    PUBLIC ${ARG_USES}
-    PRIVATE ${ARG_PRIVATELY_USES} traverse_build_flags)
+  target_compile_features(traverse_${name} PUBLIC cxx_std_20)
+  target_link_libraries(traverse_${name} PUBLIC ${ARG_USES})
+  foreach(library IN LISTS ARG_PRIVATELY_USES ITEMS traverse_build_flags)
+    if(library IN_LIST TRAVERSE_HEADERS_ONLY OR library STREQUAL traverse_build_flags)
+      set(library $<BUILD_INTERFACE:${library}>)  # an installed library asks for none of these
+    endif()
+    target_link_libraries(traverse_${name} PRIVATE ${library})
+  endforeach()
+  set_target_properties(traverse_${name} PROPERTIES EXPORT_NAME ${name})
+  install(TARGETS traverse_${name} EXPORT TraverseTargets COMPONENT development
+          INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
   if(TRAVERSE_PRECOMPILE)
     traverse_precompile(traverse_${name} precompiled_for_libraries HEADERS <nlohmann/json.hpp>
       FLAGS nlohmann_json::nlohmann_json traverse_build_flags)

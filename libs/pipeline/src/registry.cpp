@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "traverse/inertial/navigation_options.hpp"
 #include "traverse/loam/scan_to_map_odometry.hpp"
 #include "traverse/loam/two_stage_odometry.hpp"
+#include "traverse/pipeline/odometry_kind.hpp"
 #include "traverse/voxel_map/voxel_map_odometry.hpp"
 
 #include "lidar_estimator.hpp"
@@ -22,95 +24,114 @@ namespace traverse::pipeline {
 namespace {
 
 /// One algorithm: how its settings are read from a document, and how it is made from them.
-struct Kind {
-  std::vector<config::Setting> (*settings)(const config::Document&);
-  std::unique_ptr<Estimator> (*make)(const config::Document&, const dataset::RecordingInfo&,
-                                     int threads);
+struct EstimatorKind {
+  std::function<std::vector<config::Setting>(const config::Document&)> settings;
+  std::function<std::unique_ptr<Estimator>(const config::Document&, const dataset::RecordingInfo&,
+                                           int threads)>
+      make;
 };
 
-/// Options of the type from a preset's document, in which two keys beside them are for people.
-template <typename Options>
-Options read_options(const config::Document& document) {
-  Options options;
+/// Reads a preset's document, in which two keys beside the settings are for people.
+template <typename Settings>
+void read_preset(const config::Document& document, Settings& settings) {
   std::string estimator;
   std::string description;
   config::read(document, [&](config::Binder& b) {
     b.text("estimator", estimator, "the algorithm");
     b.text("description", description, "what the preset is");
-    bind(b, options);
+    bind(b, settings);
   });
-  return options;
 }
 
-template <typename Options>
-std::vector<config::Setting> settings_of(const config::Document& document) {
-  auto options = read_options<Options>(document);
-  return config::list([&](config::Binder& b) { bind(b, options); });
+template <typename Settings>
+std::vector<config::Setting> list_settings(const config::Document& document, Settings settings) {
+  read_preset(document, settings);
+  return config::list([&](config::Binder& b) { bind(b, settings); });
 }
 
-/// The options of a lidar odometry, and of the loops that may be closed over any of them.
-template <typename Options>
-struct LidarOptions {
-  Options odometry;
+/// The settings of a lidar odometry, and of the loops that may be closed over any of them.
+struct LidarSettings {
+  std::unique_ptr<OdometrySettings> odometry;
   SlamEstimatorOptions slam;
 };
 
-template <typename Options>
-void bind(config::Binder& b, LidarOptions<Options>& o) {
-  bind(b, o.odometry);
-  b.group("slam", "loops over the odometry", [&](config::Binder& g) { bind(g, o.slam); });
+void bind(config::Binder& b, LidarSettings& s) {
+  s.odometry->present(b);
+  b.group("slam", "loops over the odometry", [&](config::Binder& g) { bind(g, s.slam); });
 }
 
-/// An estimator of the lidar kind: an algorithm and the options it is made from.
-template <typename Odometry, typename Options>
-std::unique_ptr<Estimator> make_lidar(const config::Document& document,
+std::unique_ptr<Estimator> make_lidar(const LidarSettings& settings,
                                       const dataset::RecordingInfo& recording, int threads) {
-  auto options = read_options<LidarOptions<Options>>(document);
-  options.odometry.threads = threads;
   const auto make = [&](const sensors::LidarProfile& profile, bool motion_compensated) {
-    return std::make_unique<Odometry>(options.odometry, profile, motion_compensated);
+    return settings.odometry->make(profile, motion_compensated, threads);
   };
   auto odometry = std::make_unique<LidarEstimator>(make, recording);
-  if (!options.slam.localization.map.empty()) {
-    return std::make_unique<LocalizingEstimator>(std::move(odometry), options.slam.localization,
-                                                 options.slam.slam);
+  const SlamEstimatorOptions& slam = settings.slam;
+  if (!slam.localization.map.empty()) {
+    return std::make_unique<LocalizingEstimator>(std::move(odometry), slam.localization, slam.slam);
   }
-  if (!options.slam.use) return odometry;
-  return std::make_unique<SlamEstimator>(std::move(odometry), recording, options.slam);
+  if (!slam.use) return odometry;
+  return std::make_unique<SlamEstimator>(std::move(odometry), recording, slam);
 }
 
-template <typename Odometry, typename Options>
-constexpr Kind kLidarKind{settings_of<LidarOptions<Options>>, make_lidar<Odometry, Options>};
-
-template <typename Options>
-std::unique_ptr<Estimator> make_navigation(const config::Document& document,
-                                           const dataset::RecordingInfo& recording, int) {
-  return std::make_unique<NavigationEstimator>(read_options<Options>(document), recording);
+/// An estimator of the lidar kind: an odometry of some kind, and what goes with any of them.
+EstimatorKind lidar_kind(const OdometryKind& odometry) {
+  return {[odometry](const config::Document& document) {
+            return list_settings(document, LidarSettings{odometry(), {}});
+          },
+          [odometry](const config::Document& document, const dataset::RecordingInfo& recording,
+                     int threads) {
+            LidarSettings settings{odometry(), {}};
+            read_preset(document, settings);
+            return make_lidar(settings, recording, threads);
+          }};
 }
 
 template <typename Options>
-constexpr Kind kNavigationKind{settings_of<Options>, make_navigation<Options>};
+EstimatorKind navigation_kind() {
+  return {[](const config::Document& document) { return list_settings(document, Options{}); },
+          [](const config::Document& document, const dataset::RecordingInfo& recording, int) {
+            Options options;
+            read_preset(document, options);
+            return std::make_unique<NavigationEstimator>(options, recording);
+          }};
+}
 
-const Kind& find_kind(const Preset& preset) {
-  static const std::map<std::string, Kind, std::less<>> kKinds{
-      {"gins_two_frame", kNavigationKind<inertial::TwoFrameOptions>},
-      {"gins_window", kNavigationKind<inertial::SlidingWindowOptions>},
-      {"scan_to_map", kLidarKind<loam::ScanToMapOdometry, loam::ScanToMapOdometryOptions>},
-      {"two_stage", kLidarKind<loam::TwoStageOdometry, loam::TwoStageOdometryOptions>},
-      {"voxel_map", kLidarKind<voxel_map::VoxelMapOdometry, voxel_map::VoxelMapOdometryOptions>}};
+/// Those that Traverse has, and those that were registered.
+std::map<std::string, EstimatorKind, std::less<>>& estimator_kinds() {
+  static std::map<std::string, EstimatorKind, std::less<>> all{
+      {"gins_two_frame", navigation_kind<inertial::TwoFrameOptions>()},
+      {"gins_window", navigation_kind<inertial::SlidingWindowOptions>()},
+      {"scan_to_map",
+       lidar_kind(odometry_kind<loam::ScanToMapOdometry, loam::ScanToMapOdometryOptions>())},
+      {"two_stage",
+       lidar_kind(odometry_kind<loam::TwoStageOdometry, loam::TwoStageOdometryOptions>())},
+      {"voxel_map",
+       lidar_kind(
+           odometry_kind<voxel_map::VoxelMapOdometry, voxel_map::VoxelMapOdometryOptions>())}};
+  return all;
+}
+
+const EstimatorKind& find_kind(const Preset& preset) {
   const std::string name = preset.resolved.scalar("estimator").value_or("");
-  const auto found = kKinds.find(name);
-  if (found != kKinds.end()) return found->second;
+  const auto found = estimator_kinds().find(name);
+  if (found != estimator_kinds().end()) return found->second;
   std::vector<std::string> known;
-  for (const auto& [key, kind] : kKinds) known.push_back(key);
+  for (const auto& [key, kind] : estimator_kinds()) known.push_back(key);
   throw files::InputError(preset.file, files::Place::key("estimator"),
                           fmt::format("one of {}", fmt::join(known, ", ")), files::in_quotes(name));
 }
 
 }  // namespace
 
+void register_odometry(const std::string& name, const OdometryKind& kind) {
+  if (!estimator_kinds().emplace(name, lidar_kind(kind)).second) {
+    throw std::invalid_argument("there is an estimator of the name " + files::in_quotes(name));
+  }
+}
+
 std::vector<ResolvedSetting> resolve_settings(const Preset& preset) {
-  const Kind& kind = find_kind(preset);
+  const EstimatorKind& kind = find_kind(preset);
   const std::vector<config::Setting> shipped = kind.settings(preset.as_shipped);
   std::vector<ResolvedSetting> resolved;
   for (config::Setting& setting : kind.settings(preset.resolved)) {

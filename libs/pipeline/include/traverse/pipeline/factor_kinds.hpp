@@ -6,7 +6,13 @@
 
 namespace traverse::pipeline {
 
-/// Every factor of Traverse whose Jacobians are checked: those that each library registers.
+/// Every factor whose Jacobians are checked: those that each library of Traverse has, and those
+/// that were registered.
 std::vector<optimization::FactorKind> factor_kinds();
+
+/// Adds factors of your own, which a run then checks when an estimator says that it solves with
+/// them (lidar::Odometry::factors()). Call it before runs begin; other threads must not ask for the
+/// kinds meanwhile. \throws std::invalid_argument if there is a factor of such a name.
+void register_factor_kinds(std::vector<optimization::FactorKind> kinds);
 
 }  // namespace traverse::pipeline
