@@ -23,7 +23,7 @@ loam::FactorBench measure(const std::vector<sensors::LidarScan>& scans,
                           int repeats) {
   const loam::ScanToMapOdometryOptions options;
   const auto correspondences =
-      lidar::correspondences_of_last(scans, profile, motion_compensated, options);
+      loam::correspondences_of_last(scans, profile, motion_compensated, options);
   return loam::measure_factors(correspondences, options.solver, repeats);
 }
 
