@@ -3,7 +3,7 @@
 # the package's two ways to read give two orders. Needs node, npm and python3 (the bag is made with python3-rosbag).
 source "$(dirname "$0")/install.sh"
 debian_with_dependencies python3-rosbag=1.15.15+ds-2 python3-std-msgs=0.5.13-2
-npm_packages @foxglove/rosbag@0.4.1
+npm_packages @foxglove/rosbag@0.4.1 tslib@2.8.1
 cd "$tmp"
 python3 - <<'PY'
 import genpy, rosbag
