@@ -2,7 +2,7 @@
 # ROS 1: the C++ iterator over a PointCloud2 steps over row padding as if it were points, so the rows after the first
 # are wrong and there are too many of them; Debian's Python reader of the same message is right. Needs g++, python3.
 source "$(dirname "$0")/install.sh"
-debian_with_dependencies libsensor-msgs-dev=1.13.1-1+b1 python3-sensor-msgs=1.13.1-1
+debian_with_dependencies libsensor-msgs-dev=1.13.1-1+b1 python3-sensor-msgs=1.13.1-1 python3-roslib=1.15.8-3
 cxx <<'CXX'
 #include <sensor_msgs/point_cloud2_iterator.h>
 #include <cstdio>

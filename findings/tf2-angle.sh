@@ -2,7 +2,7 @@
 # tf2: the angle of the rotation between two headings that lie on either side of south is almost a full turn, where
 # Eigen says 0.08; and Eigen's own Euler angles of a turn of -0.1 about z have a yaw of 3.04. Needs g++.
 source "$(dirname "$0")/install.sh"
-debian libtf2-dev=0.7.6-1+b2 libeigen3-dev=3.4.0-4
+debian libtf2-dev=0.7.6-1+b2 libroscpp-core-dev=0.7.2-8+b2 libeigen3-dev=3.4.0-4
 cxx <<'CXX'
 #include <Eigen/Geometry>
 #include <tf2/LinearMath/Matrix3x3.h>
