@@ -3,7 +3,8 @@
 # by 0.2 rad, so standard deviations read from its covariance are half of what they seem, about other axes. Needs g++.
 source "$(dirname "$0")/install.sh"
 debian libgoogle-glog-dev=0.6.0-2 libgflags-dev=2.2.2-2 libceres-dev=2.1.0+really2.1.0+dfsg-1 libeigen3-dev=3.4.0-4
-debian_with_dependencies libceres3=2.1.0+really2.1.0+dfsg-1 libgoogle-glog0v6=0.6.0-2
+debian_with_dependencies libceres3=2.1.0+really2.1.0+dfsg-1 libgoogle-glog0v6=0.6.0-2 \
+  libblas3=3.11.0-2 liblapack3=3.11.0-2
 cxx -lceres -lglog <<'CXX'
 #include <ceres/ceres.h>
 #include <cstdio>
@@ -21,7 +22,8 @@ int main() {
   Eigen::Quaterniond end;
   manifold.Plus(start.coeffs().data(), step, end.coeffs().data());
   const Eigen::AngleAxisd turn(end * start.inverse()), body(start.inverse() * end);
-  std::printf("turn of %.1f rad about the %s z; ", turn.angle(), turn.axis().z() > 0.99 ? "world's" : body.axis().z() > 0.99 ? "body's" : "?");
+  const char* axes = turn.axis().z() > 0.99 ? "world's" : body.axis().z() > 0.99 ? "body's" : "?";
+  std::printf("turn of %.1f rad about the %s z; ", turn.angle(), axes);
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
   double* block = q.coeffs().data();
   ceres::Problem problem;

@@ -7,8 +7,8 @@ cat >"$tmp/a.mjs" <<'JS'
 import { parse } from '@loaders.gl/core';
 import { PCDLoader } from '@loaders.gl/pcd';
 const read = async (fields, sizes, types, counts, kind, data) => {
-  const header = `# .PCD v0.7\nVERSION 0.7\nFIELDS ${fields}\nSIZE ${sizes}\nTYPE ${types}\nCOUNT ${counts}\nWIDTH 1\n` +
-    `HEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1\nDATA ${kind}\n`;
+  const header = `# .PCD v0.7\nVERSION 0.7\nFIELDS ${fields}\nSIZE ${sizes}\nTYPE ${types}\nCOUNT ${counts}\n` +
+    `WIDTH 1\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1\nDATA ${kind}\n`;
   const file = Buffer.concat([Buffer.from(header), Buffer.from(data)]);
   const bytes = file.buffer.slice(file.byteOffset, file.byteOffset + file.length);
   const { POSITION, COLOR_0 } = (await parse(bytes, PCDLoader, { worker: false })).attributes;

@@ -15,7 +15,8 @@ int main() {
     scan.mark_as_modified();
     const bool saved = scan.saveToKittiVelodyneFile(name), loaded = read.loadFromKittiVelodyneFile(name);
     bool same = read.size() == scan.size();
-    for (std::size_t i = 0; same && i < scan.size(); ++i) same = scan.getPointsBufferRef_x()[i] == read.getPointsBufferRef_x()[i];
+    for (std::size_t i = 0; same && i < scan.size(); ++i)
+      same = scan.getPointsBufferRef_x()[i] == read.getPointsBufferRef_x()[i];
     std::printf("%s %s, %s, %s; ", name, saved ? "saved" : "not saved", loaded ? "loaded" : "not loaded",
                 same ? "the same" : "other points");
   }

@@ -19,8 +19,10 @@ int main() {
     for (int block = 0; block < 12; ++block) { // two firings of 16 lasers, 10 m in every direction
       unsigned char* at = bytes + 100 * block;
       const int azimuth = (packet * 12 + block) * 39 % 36000, distance = 5000;
-      const unsigned char head[] = {0xff, 0xee, static_cast<unsigned char>(azimuth), static_cast<unsigned char>(azimuth >> 8)};
-      std::memcpy(at, head, 4);
+      at[0] = 0xff;
+      at[1] = 0xee;
+      at[2] = azimuth & 255;
+      at[3] = azimuth >> 8;
       for (int i = 0; i < 32; ++i) {
         at[4 + 3 * i] = distance & 255;
         at[5 + 3 * i] = distance >> 8;

@@ -9,7 +9,7 @@ def white(kind, value):
     names = "".join("property float %s\n" % n for n in "xyz") + \
             "".join("property %s %s\n" % (kind, n) for n in ("red", "green", "blue"))
     with open("a.ply", "w") as file:
-        file.write("ply\nformat ascii 1.0\nelement vertex 1\n%send_header\n1 2 3 %s %s %s\n" % (names, value, value, value))
+        file.write("ply\nformat ascii 1.0\nelement vertex 1\n" + names + "end_header\n1 2 3" + 3 * (" " + value) + "\n")
     return "%s %.3f" % (kind, open3d.io.read_point_cloud("a.ply").colors[0][0])
 print(white("uchar", "255"), white("ushort", "65535"), white("float", "1.0"), sep=", ")
 PY

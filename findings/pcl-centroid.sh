@@ -16,4 +16,5 @@ int main() {
   std::printf("%.1f", centroid.x());
 }
 CXX
-report "PCL 1.13.0, compute3DCentroid of 5 million points with x of 100 and 101 in turn" "100.5" "$("$tmp/probe")" "97\..*"
+report "PCL 1.13.0, compute3DCentroid of 5 million points with x of 100 and 101 in turn" \
+  "100.5" "$("$tmp/probe")" "97\..*"

@@ -8,7 +8,8 @@ import { gpx } from '@tmcw/togeojson';
 import { DOMParser } from '@xmldom/xmldom';
 const points = [0, 1, 2, 3].map((second) => `<trkpt lat="48.${second}" lon="11">` +
   (second === 1 ? '' : `<time>2026-03-01T12:00:0${second}Z</time>`) + '</trkpt>').join('');
-const text = `<gpx version="1.1" creator="x" xmlns="http://www.topografix.com/GPX/1/1"><trk><trkseg>${points}</trkseg></trk></gpx>`;
+const text = '<gpx version="1.1" creator="x" xmlns="http://www.topografix.com/GPX/1/1"><trk><trkseg>' +
+  `${points}</trkseg></trk></gpx>`;
 const { geometry, properties } = gpx(new DOMParser().parseFromString(text, 'text/xml')).features[0];
 console.log(geometry.coordinates.map(([, latitude], i) =>
   `${latitude}@${properties.coordinateProperties.times[i]?.slice(-3, -1) ?? 'none'}`).join(' '));
