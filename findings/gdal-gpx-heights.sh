@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # GDAL: a 3-D point written as GPX loses its height, a 3-D line keeps it; reading that line back gives a flat one.
 source "$(dirname "$0")/install.sh"
-debian_with_dependencies gdal-bin=3.6.2+dfsg-1+b2 libgdal32=3.6.2+dfsg-1+b2
+debian_with_dependencies gdal-bin=3.6.2+dfsg-1+b2 libgdal32=3.6.2+dfsg-1+b2 gdal-data=3.6.2+dfsg-1 proj-data=9.1.1-1
+export GDAL_DATA=$root/usr/share/gdal PROJ_DATA=$root/usr/share/proj
 cd "$tmp"
 feature() { # TYPE COORDINATES
   echo "{\"type\":\"Feature\",\"properties\":{},\"geometry\":{\"type\":\"$1\",\"coordinates\":$2}}"

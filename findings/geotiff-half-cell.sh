@@ -3,7 +3,8 @@
 # off by half a cell in both directions, since the corner that the file names is taken for the cell's edge. Needs node
 # and npm.
 source "$(dirname "$0")/install.sh"
-debian_with_dependencies gdal-bin=3.6.2+dfsg-1+b2 libgdal32=3.6.2+dfsg-1+b2
+debian_with_dependencies gdal-bin=3.6.2+dfsg-1+b2 libgdal32=3.6.2+dfsg-1+b2 gdal-data=3.6.2+dfsg-1 proj-data=9.1.1-1
+export GDAL_DATA=$root/usr/share/gdal PROJ_DATA=$root/usr/share/proj
 npm_packages geotiff@3.0.5
 cd "$tmp"
 printf 'ncols 2\nnrows 2\nxllcorner 500000\nyllcorner 5300000\ncellsize 10\n1.5 2.5\n3.5 4.5\n' >heights.asc
