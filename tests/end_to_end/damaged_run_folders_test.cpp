@@ -217,7 +217,7 @@ class DamagedRunFolders : public ::testing::Test {
       bench.evaluations.push_back({"line vector", derivative, 100, {5, 4, 6}});
       bench.solves.push_back({{"line vector", "plane signed"}, derivative, 4, {1, 1, 2}, 0, 0});
     }
-    files::write_text(folder.factor_bench(), lidar::to_json(bench));
+    files::write_text(folder.factor_bench(), loam::to_json(bench));
     mapping::write_map_origin(folder.origin(), {48.1, 11.5, 500});
   }
 

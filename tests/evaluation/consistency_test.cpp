@@ -14,6 +14,7 @@
 
 #include "traverse/evaluation/evaluation_error.hpp"
 #include "traverse/evaluation/statistics.hpp"
+#include "traverse/statistics/quantile.hpp"
 
 #include "geometry/random_motion.hpp"
 
@@ -126,7 +127,7 @@ Consistency score_by_definition(const std::vector<Scan>& scans) {
   score.points = points.size();
   const Statistics statistics = statistics_of(distances);
   score.point_to_plane = {distances.size(), statistics.mean, statistics.median,
-                          quantile(distances, 0.9)};
+                          statistics::quantile(distances, 0.9)};
   return score;
 }
 

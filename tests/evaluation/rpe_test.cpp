@@ -12,11 +12,11 @@ namespace traverse::evaluation {
 namespace {
 
 using geometry::Pose3;
-using Poses = std::vector<Pose3>;
+using PoseList = std::vector<Pose3>;
 using ::testing::ElementsAre;
 
-Poses on_axis(const std::vector<double>& x_m) {
-  Poses poses;
+PoseList on_axis(const std::vector<double>& x_m) {
+  PoseList poses;
   for (const double x : x_m) poses.push_back({Eigen::Matrix3d::Identity(), {x, 0, 0}});
   return poses;
 }
@@ -40,8 +40,8 @@ TEST(Rpe, IsTheErrorOfEachMotion) {
 }
 
 TEST(Rpe, TheSourceOfThePairsIsAChoice) {
-  const Poses estimate = on_axis({0, 1, 2, 3, 4});
-  const Poses reference = on_axis({0, 2, 4, 6, 8});
+  const PoseList estimate = on_axis({0, 1, 2, 3, 4});
+  const PoseList reference = on_axis({0, 2, 4, 6, 8});
   RpeOptions options{{2, DeltaUnit::kMetres}, true, PairsFrom::kEstimate};
   EXPECT_EQ(rpe(estimate, reference, options, Relation::kTranslation).pairs[0].to, 2U);
   options.pairs_from = PairsFrom::kReference;
@@ -58,7 +58,7 @@ TEST(Rpe, SaysWhatThereIsWhenThereIsNoPair) {
 }
 
 TEST(Rpe, RatiosWithoutMotionOfTheReferenceAreDroppedAndCounted) {
-  const Poses estimate = on_axis({0, 1, 2, 4});
+  const PoseList estimate = on_axis({0, 1, 2, 4});
   const Rpe found = rpe(estimate, on_axis({0, 1, 1, 3}), kOneFrame, Relation::kPointDistanceRatio);
   EXPECT_EQ(found.dropped_without_motion, 1U);
   EXPECT_THAT(found.pairs, ElementsAre(IndexPair{0, 1}, IndexPair{2, 3}));

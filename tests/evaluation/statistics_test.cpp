@@ -28,15 +28,5 @@ TEST(Statistics, OfOneValue) {
   EXPECT_THROW(statistics_of({}), std::invalid_argument);
 }
 
-TEST(Quantile, IsLinearBetweenNeighbours) {
-  const std::vector<double> values{5, 1, 4, 2, 3};
-  EXPECT_DOUBLE_EQ(quantile(values, 0), 1);
-  EXPECT_DOUBLE_EQ(quantile(values, 0.5), 3);
-  EXPECT_DOUBLE_EQ(quantile(values, 0.9), 4.6);
-  EXPECT_DOUBLE_EQ(quantile(values, 1), 5);
-  EXPECT_THROW(quantile(values, 1.1), std::invalid_argument);
-  EXPECT_THROW(quantile({}, 0.5), std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace traverse::evaluation

@@ -37,8 +37,8 @@ struct Room {
     }
   }
 
-  static lidar::LocalMap map_of(const std::vector<Eigen::Vector3d>& points) {
-    lidar::LocalMap map(0.05, 100);
+  static loam::LocalMap map_of(const std::vector<Eigen::Vector3d>& points) {
+    loam::LocalMap map(0.05, 100);
     map.insert(points);
     map.build_index();
     return map;

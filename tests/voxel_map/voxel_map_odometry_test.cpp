@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "traverse/loam/factor_kinds.hpp"
 #include "traverse/optimization/jacobian_audit.hpp"
+#include "traverse/voxel_map/row_factor_kinds.hpp"
 
 #include "lidar/odometry_trial.hpp"
 #include "lidar/shown_matches.hpp"
@@ -67,7 +67,7 @@ TEST_F(VoxelStreet, ShowsItsMatchesAndItsMap) {
 
 TEST_F(VoxelStreet, ItsFactorsAreKinds) {
   const VoxelMapOdometry odometry({}, street().scanner.profile, false);
-  const auto kinds = optimization::selected(factor_kinds(), odometry.factors());
+  const auto kinds = optimization::selected(row_factor_kinds(), odometry.factors());
   ASSERT_EQ(kinds.size(), 2U);
   EXPECT_EQ(kinds[0].name, "voxel plane row");
   EXPECT_EQ(kinds[1].name, "voxel line rows");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "traverse/evaluation/statistics.hpp"
+#include "traverse/statistics/quantile.hpp"
 
 namespace traverse::evaluation {
 
@@ -76,8 +77,8 @@ void for_each_resample(std::size_t count, std::size_t block, const BootstrapOpti
 Interval interval_of(std::span<const double> figures, std::size_t block,
                      const BootstrapOptions& options) {
   const double tail = (1 - options.confidence) / 2;
-  return {quantile(figures, tail), quantile(figures, 1 - tail), options.confidence, block,
-          options.resamples};
+  return {statistics::quantile(figures, tail), statistics::quantile(figures, 1 - tail),
+          options.confidence, block, options.resamples};
 }
 
 void take(std::span<const double> values, std::span<const std::size_t> numbers,
@@ -91,7 +92,7 @@ void take(std::span<const double> values, std::span<const std::size_t> numbers,
 
 double figure_of(std::span<const double> values, Figure figure) {
   if (values.empty()) throw std::invalid_argument("a figure needs at least one value");
-  if (figure == Figure::kMedian) return quantile(values, 0.5);
+  if (figure == Figure::kMedian) return statistics::quantile(values, 0.5);
   double sum = 0;
   for (const double value : values) sum += figure == Figure::kRmse ? value * value : value;
   const double mean = sum / static_cast<double>(values.size());

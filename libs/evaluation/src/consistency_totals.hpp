@@ -13,6 +13,7 @@
 
 #include "traverse/evaluation/consistency.hpp"
 #include "traverse/evaluation/statistics.hpp"
+#include "traverse/statistics/quantile.hpp"
 
 namespace traverse::evaluation {
 
@@ -75,7 +76,7 @@ class ConsistencyTotals {
     if (!distances_m_.empty()) {
       const Statistics statistics = statistics_of(distances_m_);
       result.point_to_plane = {distances_m_.size(), statistics.mean, statistics.median,
-                               quantile(distances_m_, 0.9)};
+                               statistics::quantile(distances_m_, 0.9)};
     }
     return result;
   }

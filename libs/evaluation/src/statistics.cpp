@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <vector>
+
+#include "traverse/statistics/quantile.hpp"
 
 namespace traverse::evaluation {
 
@@ -23,22 +24,8 @@ Statistics statistics_of(std::span<const double> values) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   s.min = *least;
   s.max = *most;
-  s.median = quantile(values, 0.5);
+  s.median = statistics::median(values);
   return s;
-}
-
-double quantile(std::span<const double> values, double fraction) {
-  if (values.empty() || !(fraction >= 0 && fraction <= 1)) {
-    throw std::invalid_argument("a quantile needs a value and a fraction from 0 to 1");
-  }
-  std::vector<double> sorted(values.begin(), values.end());
-  const double place = fraction * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(below);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  if (below + 1 == sorted.size()) return *middle;
-  const double above = *std::min_element(middle + 1, sorted.end());
-  return *middle + (place - static_cast<double>(below)) * (above - *middle);
 }
 
 }  // namespace traverse::evaluation

@@ -44,7 +44,7 @@ struct FilesThere {
 
 struct RawlogOptions {
   int gzip_level = 1;  ///< 0 (plain) to 9
-  FilesThere there;
+  FilesThere there{};
 };
 
 /// Writes `file` as a rawlog of observations that MRPT's own tools open, with the facts in

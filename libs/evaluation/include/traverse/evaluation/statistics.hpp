@@ -20,8 +20,4 @@ struct Statistics {
 /// \throws std::invalid_argument if there are no values.
 Statistics statistics_of(std::span<const double> values);
 
-/// The value that a share `fraction` of `values` does not exceed, linear between neighbours.
-/// \throws std::invalid_argument if there are no values or fraction is outside [0, 1].
-double quantile(std::span<const double> values, double fraction);
-
 }  // namespace traverse::evaluation
