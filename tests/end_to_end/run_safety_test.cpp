@@ -364,6 +364,8 @@ TEST_F(RunSafety, KilledOrStoppedAtAnyMomentAReportLeavesTheEarlierOne) {
     process.wait();
     EXPECT_EQ(same_each_time(run, visible(run)), before) << kill;
   }
+  // What the last killed one left is not to be taken for the work of the next.
+  ASSERT_EQ(ProgramProcess(words, at("a.log")).wait(), 0) << log();
   for (const int signal : {SIGINT, SIGTERM}) {
     ProgramProcess process(words, at("a.log"));
     ASSERT_TRUE(wait_until([&] { return fs::exists(run + "/.report.traverse-work/images"); }));

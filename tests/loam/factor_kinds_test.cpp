@@ -12,8 +12,7 @@ using optimization::Perturbation;
 
 TEST(FactorKinds, AllPassOnBothSidesFarFromZeroResidual) {
   const auto audit = optimization::audit_jacobians(factor_kinds(), AuditOptions{});
-  EXPECT_EQ(audit.factors.size(),
-            18U);  // four residuals, deskewed and swept, two sides; two of voxels
+  EXPECT_EQ(audit.factors.size(), 16U);  // four residuals, deskewed and swept, two sides
   for (const optimization::FactorAudit& factor : audit.factors) {
     EXPECT_TRUE(factor.passed) << factor.factor << " " << name_of(factor.perturbation);
     EXPECT_GE(factor.least_residual, 0.49) << factor.factor;

@@ -26,7 +26,7 @@ namespace {
 /// A word that is missing or changed is a difference in few blocks, but there a large one.
 constexpr int kClearlyDifferent = 48;  // of 255
 constexpr int kBlock = 16;             // pixels, about the height of a letter
-constexpr int kMostInBlock = 48;       // pixels of 256 that may differ clearly
+constexpr int kMostInBlock = 24;       // pixels of 256 that may differ clearly
 
 Style small(bool dark = false) {
   Style style;

@@ -39,7 +39,7 @@ TEST(LoopsSection, CountsWhatBecameOfTheCandidates) {
                made_loop(slam::LoopVerdict::kLittleOverlap, 0.2, 0)};
   EXPECT_THAT(rendered_loops(run),
               AllOf(HasSubstr("has loops 2 of 3 candidates were accepted"),
-                    HasSubstr("accepted;2;0;0.800;"), HasSubstr("little overlap;1;0;0.200;"),
+                    HasSubstr("accepted;2;0;0.750;"), HasSubstr("little overlap;1;0;0.200;"),
                     HasSubstr("2;3.00;5.00;1;")));
 }
 

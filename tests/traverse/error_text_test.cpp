@@ -41,7 +41,7 @@ TEST(ErrorText, LackOfMemoryIsSaidInWords) {
 }
 
 TEST(ErrorText, JsonIsSaidInWords) {
-  EXPECT_THAT(text_of([] { (void)nlohmann::json::parse("{\"a\": "); }),
+  EXPECT_THAT(text_of([] { const auto json = nlohmann::json::parse("{\"a\": "); }),
               AllOf(HasSubstr("a JSON file that `traverse report` read"),
                     Not(HasSubstr("[json.exception"))));
   EXPECT_THAT(text_of([] { throw 1; }), HasSubstr("without a reason"));
