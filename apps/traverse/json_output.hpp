@@ -12,7 +12,8 @@ namespace traverse::app {
 /// \throws files::OutputError
 void write_json_output(const std::filesystem::path& file, const std::string& json);
 
-/// The same of a document that is too large to be held as text. \param write puts it into the stream
+/// The same of a document that is too large to be held as text. \param write puts it into the
+/// stream
 void write_json_output(const std::filesystem::path& file,
                        const std::function<void(std::ostream&)>& write);
 

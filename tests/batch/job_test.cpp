@@ -45,8 +45,9 @@ TEST_F(JobTest, EachCombinationIsOneJobWithItsCommand) {
   ASSERT_EQ(all.size(), 8U);
   EXPECT_EQ(ids(all).size(), 8U);
   EXPECT_EQ(all[3].title(), "a, floam solver.huber_m=0.2, repeat 2");
-  EXPECT_THAT(all[3].arguments, IsSupersetOf({"run", (folder_ / "a.rawlog").c_str(), "--set",
-                                              "solver.huber_m=0.2", "--threads", "2", "-o", "run"}));
+  EXPECT_THAT(all[3].arguments,
+              IsSupersetOf({"run", (folder_ / "a.rawlog").c_str(), "--set", "solver.huber_m=0.2",
+                            "--threads", "2", "-o", "run"}));
 }
 
 TEST_F(JobTest, TheIdFollowsRecordingConfigurationAndProgramAlone) {

@@ -14,7 +14,6 @@
 #include "traverse/dataset/point_cloud_file.hpp"
 #include "traverse/dataset/trajectory_files.hpp"
 #include "traverse/files/input_error.hpp"
-
 #include "traverse/mrpt_io/simple_map_file.hpp"
 
 namespace {

@@ -35,9 +35,9 @@ void require_own_folder(const BatchFolder& folder, const std::string& plan) {
   const fs::path lock = folder.path / "lock";
   std::error_code failure;
   for (const fs::path& place :
-       {folder.plan(), folder.jobs(), folder.digests(), folder.results_csv(),
-        folder.results_json(), folder.leaderboard_tex(), folder.report(), folder.recordings(),
-        folder.runs(), folder.journals(), folder.submissions(), lock}) {
+       {folder.plan(), folder.jobs(), folder.digests(), folder.results_csv(), folder.results_json(),
+        folder.leaderboard_tex(), folder.report(), folder.recordings(), folder.runs(),
+        folder.journals(), folder.submissions(), lock}) {
     if (!fs::exists(fs::symlink_status(place, failure))) continue;
     if (fs::is_directory(place, failure) && fs::is_empty(place, failure)) continue;
     if (fs::is_regular_file(place, failure)) {
@@ -46,8 +46,9 @@ void require_own_folder(const BatchFolder& folder, const std::string& plan) {
       if (place == lock && (text.empty() || text.starts_with("process "))) continue;
     }
     throw files::OutputError(
-        place, "it is there already, and no batch has worked in this folder (journal/ is empty). "
-               "Choose another folder");
+        place,
+        "it is there already, and no batch has worked in this folder (journal/ is empty). "
+        "Choose another folder");
   }
 }
 

@@ -17,7 +17,7 @@ using voxel_map::AlignmentOptions;
 using voxel_map::Effort;
 
 constexpr Effort kMuchEffort{6, 2};
-constexpr double kCoarser = 1.2;                          // where there would be too many starts
+constexpr double kCoarser = 1.2;                       // where there would be too many starts
 const voxel_map::MotionModel kStanding{{}, 1, false};  // keyframes are deskewed
 
 /// Grid points to one side of the middle one, so that no place is farther than half a spacing off.
