@@ -7,11 +7,11 @@
 namespace traverse::parallel {
 
 struct Workers::Arena {
+  explicit Arena(int threads) : arena(threads) {}
   tbb::task_arena arena;
 };
 
-Workers::Workers(int threads)
-    : arena_(threads > 1 ? std::make_unique<Arena>(tbb::task_arena(threads)) : nullptr) {}
+Workers::Workers(int threads) : arena_(threads > 1 ? std::make_unique<Arena>(threads) : nullptr) {}
 
 Workers::~Workers() = default;
 
