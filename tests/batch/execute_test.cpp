@@ -81,7 +81,8 @@ TEST_F(Execute, EveryEndIsARowWithItsReason) {
         Case{"sleep 60", Outcome::kTimedOut, "more than 0.2 s"},
         Case{"exec perl -e 'my $a = \"x\" x 90_000_000; sleep 60'", Outcome::kOutOfMemory,
              "more than 60 MB"},
-        Case{"echo \"traverse: std::bad_alloc\"; exit 1", Outcome::kOutOfMemory, "no more"}}) {
+        Case{"echo \"traverse: out of memory: use less\"; exit 1", Outcome::kOutOfMemory,
+             "no more"}}) {
     Job one = job("one", c.script);
     one.limits.memory_mb = 60;
     if (c.outcome == Outcome::kTimedOut) one.limits.time_s = 0.2;
@@ -122,10 +123,10 @@ TEST_F(Execute, ARunKilledFromOutsideIsBegunAgain) {
 TEST_F(Execute, ARunThatEndedInOrderOnARequestIsBegunAgain) {
   const std::string marker = (temporary_ / "marker").string();
   const auto completion =
-      run(job("asked", "[ -e " + marker +
-                           " ] && { echo '{\"status\": \"ok\"}' > run.json; exit 0; }; "
+      run(job("asked", "mkdir run; [ -e " + marker +
+                           " ] && { echo '{\"status\": \"ok\"}' > run/run.json; exit 0; }; "
                            "touch " +
-                           marker + "; echo '{\"status\": \"interrupted\"}' > run.json"));
+                           marker + "; echo '{\"status\": \"interrupted\"}' > run/run.json"));
   EXPECT_EQ(completion->attempts, 2);
 }
 
