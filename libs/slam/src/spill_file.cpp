@@ -75,7 +75,7 @@ std::uint64_t SpillFile::append(const Keyframe& keyframe) {
     const auto* bytes = static_cast<const std::byte*>(data);
     whole.insert(whole.end(), bytes, bytes + count);
   };
-  Fields{write}.keyframe(keyframe);
+  Fields<decltype(write)>{write}.keyframe(keyframe);
   const parallel::Lock lock(mutex_);
   return file_.append(whole);
 }
@@ -87,7 +87,7 @@ Keyframe SpillFile::read(std::uint64_t offset) {
     file_.read(offset, {static_cast<std::byte*>(data), count});
     offset += count;
   };
-  Fields{read}.keyframe(keyframe);
+  Fields<decltype(read)>{read}.keyframe(keyframe);
   return keyframe;
 }
 
