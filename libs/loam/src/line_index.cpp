@@ -9,10 +9,10 @@ namespace traverse::loam {
 
 namespace {
 
-constexpr std::size_t kLeafSize = 20;
+constexpr std::size_t kSweepLeafSize = 20;
 
 /// What nanoflann asks of a point set.
-struct PointSet {
+struct SweepPointSet {
   const lidar::TimedPoints& points;
 
   std::size_t kdtree_get_point_count() const { return points.size(); }
@@ -25,8 +25,9 @@ struct PointSet {
   }
 };
 
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointSet>,
-                                                 PointSet, 3, std::uint32_t>;
+using Tree =
+    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, SweepPointSet>,
+                                        SweepPointSet, 3, std::uint32_t>;
 
 /// nanoflann's collector of results: the nearest point that `Accept` takes.
 template <typename Accept>
@@ -58,7 +59,7 @@ struct LineIndex::Search {
   explicit Search(LinedPoints those)
       : points(std::move(those)),
         set{points.points},
-        tree(3, set, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize)) {}
+        tree(3, set, nanoflann::KDTreeSingleIndexAdaptorParams(kSweepLeafSize)) {}
 
   int line(std::uint32_t i) const { return points.line[i]; }
 
@@ -72,7 +73,7 @@ struct LineIndex::Search {
   }
 
   LinedPoints points;
-  PointSet set;
+  SweepPointSet set;
   Tree tree;
 };
 
