@@ -25,7 +25,7 @@ struct SweepPointSet {
   }
 };
 
-using Tree =
+using SweepTree =
     nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, SweepPointSet>,
                                         SweepPointSet, 3, std::uint32_t>;
 
@@ -74,7 +74,7 @@ struct LineIndex::Search {
 
   LinedPoints points;
   SweepPointSet set;
-  Tree tree;
+  SweepTree tree;
 };
 
 LineIndex::LineIndex() : LineIndex(LinedPoints{}) {}
