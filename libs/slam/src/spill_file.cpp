@@ -82,10 +82,10 @@ std::uint64_t SpillFile::append(const Keyframe& keyframe) {
 
 Keyframe SpillFile::read(std::uint64_t offset) {
   const parallel::Lock lock(mutex_);
-  const files::ScratchFile& file = file_;
+  const files::ScratchFile* const file = &file_;
   Keyframe keyframe;
   const auto read = [&](void* data, std::size_t count) {
-    file.read(offset, {static_cast<std::byte*>(data), count});
+    file->read(offset, {static_cast<std::byte*>(data), count});
     offset += count;
   };
   Fields<decltype(read)>{read}.keyframe(keyframe);
