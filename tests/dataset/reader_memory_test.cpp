@@ -349,9 +349,10 @@ mrpt::obs::CObservationPointCloud::Ptr cloud_of(std::size_t points) {
 TEST_F(ReaderMemory, Rawlogs) {
   constexpr std::uint32_t kThere = 1717;
   constexpr std::uint32_t kStated = 200'000'000;
-  const auto one = [&](const char* what, const mrpt::serialization::CSerializable& object) {
+  const auto one = [&](const char* what, const mrpt::serialization::CSerializable& object,
+                       const char* outcome = "is damaged") {
     const std::string bytes = bytes_of(made_imu(0)) + with_count(object, kThere, kStated);
-    check(what, "recording", write("a.rawlog", bytes), "is damaged");
+    check(what, "recording", write("a.rawlog", bytes), outcome);
   };
   one("rawlog, Velodyne points", made_velodyne(1, kThere));
   one("rawlog, point cloud", *cloud_of(kThere));
@@ -365,7 +366,11 @@ TEST_F(ReaderMemory, Rawlogs) {
   mrpt::obs::CObservationRawDAQ daq;
   daq.timestamp = mrpt_time(1);
   daq.AIN_float.resize(kThere);
+#ifdef TRAVERSE_SANITIZED  // operator new is the sanitizer's, which gives what is stated
+  one("rawlog, raw data", daq, "is cut short");
+#else
   one("rawlog, raw data", daq);
+#endif
   auto frame = mrpt::obs::CSensoryFrame();
   frame.insert(cloud_of(kThere));
   one("rawlog, point cloud in a frame", frame);
