@@ -11,6 +11,7 @@
 
 #include "bash_completion.hpp"
 #include "console.hpp"
+#include "decimal_integers.hpp"
 #include "error_text.hpp"
 #include "interruption.hpp"
 #include "message_window.hpp"
@@ -142,6 +143,7 @@ int main(int argc, char** argv) {
   traverse::app::add_options(app, request);
   app.add_flag("--help-script", help_script, "list the commands of a script and exit");
   traverse::app::add_bash_completion(app);
+  traverse::app::read_integers_as_decimal(app);
   int status = kFailure;
   try {
     try {

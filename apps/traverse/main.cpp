@@ -2,6 +2,7 @@
 
 #include "bash_completion.hpp"
 #include "commands.hpp"
+#include "decimal_integers.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
 #include "standard_streams.hpp"
@@ -41,5 +42,6 @@ int main(int argc, char** argv) {
   traverse::app::add_check_jacobians(app);
   traverse::app::add_bench_factors(app);
   traverse::app::add_bash_completion(app);
+  traverse::app::read_integers_as_decimal(app);
   return traverse::app::exit_status(app, argc, argv);
 }
