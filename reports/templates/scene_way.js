@@ -51,9 +51,9 @@ const sceneWay = (() => {
     const { viridis, paint } = sceneColours;
     const error = traverse.report.scene.error_m;
     const values = {
-      error: () => [error, viridis, "way: error", "m"],
-      time: () => [traverse.report.poses.time_s, viridis, "way: time", "s"],
-      height: () => [Array.from({ length: traverse.poses }, (_, i) => estimate.p[3 * i + 2]), viridis, "way: height", "m"],
+      error: () => [error, viridis, "trajectory: error", "m"],
+      time: () => [traverse.report.poses.time_s, viridis, "trajectory: time", "s"],
+      height: () => [Array.from({ length: traverse.poses }, (_, i) => estimate.p[3 * i + 2]), viridis, "trajectory: height", "m"],
     };
     if (!error) delete values.error;
     return {
