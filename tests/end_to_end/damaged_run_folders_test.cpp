@@ -327,12 +327,14 @@ TEST_F(DamagedRunFolders, EveryCommandNamesTheFileOrDoesItsWork) {
   const std::vector<Damage> list = damages();
   ASSERT_GE(list.size(), 100U);
   std::size_t told = 0;
+  std::size_t unseen = 0;
   const double before_mb = peak_memory_mb();
   for (const Damage& damage : list) {
     const pipeline::RunFolder folder = damaged(damage);
     const RunFile& file =
         *std::find_if(run_files().begin(), run_files().end(),
                       [&](const RunFile& one) { return one.name == damage.file; });
+    const std::size_t told_before = told;
     for (const auto& [command, name] : kCommands) {
       const bool needs = file.readers.contains(command);
       if (!needs && !file.lookers.contains(command)) continue;
@@ -348,9 +350,13 @@ TEST_F(DamagedRunFolders, EveryCommandNamesTheFileOrDoesItsWork) {
       EXPECT_THAT(message, Not(HasSubstr("json.exception")));
       EXPECT_LT(message.size(), 500U);
     }
+    if (told == told_before) {
+      ++unseen;
+      fmt::print("read all the same: {}, {}\n", damage.file, damage.what);
+    }
   }
-  fmt::print("{} folders, {} messages, {:.0f} MB more memory\n", list.size(), told,
-             peak_memory_mb() - before_mb);
+  fmt::print("{} folders, {} messages, {} read all the same, {:.0f} MB more memory\n", list.size(),
+             told, unseen, peak_memory_mb() - before_mb);
 }
 
 TEST_F(DamagedRunFolders, AFileThatACommandDoesNotNeedDoesNotStopIt) {
