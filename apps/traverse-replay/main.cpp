@@ -48,7 +48,7 @@ void print_report(const RedrawReport& report) {
         "redraws while playing: {} in {:.1f} s ({:.1f} a second), at most {} points, the "
         "window's loop never took longer than {:.0f} ms\n",
         report.redraws, report.seconds, static_cast<double>(report.redraws) / report.seconds,
-        report.most_points, 1000 * report.longest_s);
+        report.max_points, 1000 * report.longest_s);
   }
   if (report.gl_errors > 0) print_message("OpenGL errors: {}\n", report.gl_errors);
 }

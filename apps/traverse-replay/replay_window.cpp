@@ -121,7 +121,7 @@ bool ReplayWindow::round() {
 
 void ReplayWindow::note_redraw(double seconds, bool playing) {
   report_.redraws += playing ? 1 : 0;
-  report_.most_points = std::max(report_.most_points, scene_.points_drawn());
+  report_.max_points = std::max(report_.max_points, scene_.points_drawn());
   redraw_s_ += kSmoothing * (seconds - redraw_s_);
   scene_.adapt(redraw_s_);
   while (glGetError() != GL_NO_ERROR) ++report_.gl_errors;

@@ -20,9 +20,9 @@ class TransportBar;
 /// How fluent the window was.
 struct RedrawReport {
   std::size_t redraws = 0;
-  double seconds = 0;           ///< while playing
-  double longest_s = 0;         ///< between two rounds of the window's loop, while playing
-  std::size_t most_points = 0;  ///< drawn at once
+  double seconds = 0;          ///< while playing
+  double longest_s = 0;        ///< between two rounds of the window's loop, while playing
+  std::size_t max_points = 0;  ///< drawn at once
   std::size_t gl_errors = 0;
 };
 

@@ -64,6 +64,7 @@ std::optional<std::string> simulation_error(const std::vector<std::string>& word
 batch::Plan checked_plan(const BatchArguments& arguments, const fs::path& share) {
   try {
     batch::Plan plan = batch::load_plan(arguments.plan, share, simulation_error);
+    print_notes(plan.notes);
     if (arguments.executor == "local") batch::check_this_machine(plan);
     return plan;
   } catch (const files::InputError& error) {

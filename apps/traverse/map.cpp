@@ -22,6 +22,7 @@
 
 #include "commands.hpp"
 #include "progress_bar.hpp"
+#include "standard_streams.hpp"
 
 namespace traverse::app {
 
@@ -82,7 +83,7 @@ MapSettings settings_from(const MapArguments& arguments) {
   options.with_grid = !arguments.no_grid;
   config::Document document;
   for (const std::string& assignment : arguments.assignments) document.set(assignment);
-  config::read(document, [&](config::Binder& b) { bind(b, settings); });
+  print_notes(config::read(document, [&](config::Binder& b) { bind(b, settings); }));
   return settings;
 }
 

@@ -90,7 +90,7 @@ pipeline::Preset checked_preset(const pipeline::PresetRequest& request,
                                 const std::filesystem::path& share) {
   try {
     pipeline::Preset preset = pipeline::load_preset(request, share);
-    pipeline::resolve_settings(preset);
+    print_notes(pipeline::settings_notes(preset));
     return preset;
   } catch (const files::InputError& error) {
     throw CLI::ValidationError(error.what());

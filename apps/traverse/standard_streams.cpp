@@ -38,6 +38,10 @@ void print_message(std::string_view text) {
   std::fflush(stderr);
 }
 
+void print_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) print_message("note: {}\n", note);
+}
+
 void require_printed() {
   errno = 0;
   const bool flushed = std::fflush(stdout) == 0;

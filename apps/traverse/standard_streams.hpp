@@ -1,7 +1,9 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -18,6 +20,9 @@ template <typename... Values>
 void print_message(fmt::format_string<Values...> format, Values&&... values) {
   print_message(std::string_view(fmt::format(format, std::forward<Values>(values)...)));
 }
+
+/// What the user should know of what was asked for, a line each: "note: ...".
+void print_notes(const std::vector<std::string>& notes);
 
 /// Whether stdout took all that was printed; called when a command is through.
 /// If its reader has gone (`| head -1`) the program ends here as others do, silently by SIGPIPE.

@@ -16,7 +16,7 @@ std::size_t shown_width(std::string_view text) {
   }));
 }
 
-std::vector<std::string> broken_lines(std::string_view text, std::size_t most_width) {
+std::vector<std::string> broken_lines(std::string_view text, std::size_t max_width) {
   std::vector<std::string> lines(1);
   while (!text.empty()) {
     const std::size_t end = std::min(text.find(' '), text.size());
@@ -25,7 +25,7 @@ std::vector<std::string> broken_lines(std::string_view text, std::size_t most_wi
     std::string& line = lines.back();
     if (line.empty()) {
       line = word;
-    } else if (shown_width(line) + 1 + shown_width(word) <= most_width) {
+    } else if (shown_width(line) + 1 + shown_width(word) <= max_width) {
       line += " " + std::string(word);
     } else {
       lines.emplace_back(word);
@@ -47,7 +47,7 @@ std::string Table::text(std::size_t indent) const {
   for (const auto& row : rows_) {
     auto& lines = cells.emplace_back();
     for (std::size_t c = 0; c < columns_.size(); ++c) {
-      lines.push_back(broken_lines(row[c], columns_[c].most_width));
+      lines.push_back(broken_lines(row[c], columns_[c].max_width));
       for (const std::string& line : lines.back()) {
         widths[c] = std::max(widths[c], shown_width(line));
       }

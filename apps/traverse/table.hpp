@@ -13,7 +13,7 @@ class Table {
   enum class Align { kLeft, kRight };
   struct Column {
     Align align = Align::kLeft;
-    std::size_t most_width = 60;
+    std::size_t max_width = 60;
   };
 
   explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}

@@ -1,4 +1,4 @@
-#include "baseline.hpp"
+#include "results/baseline.hpp"
 
 #include <cmath>
 

@@ -14,7 +14,7 @@
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/text_file.hpp"
 
-#include "lock.hpp"
+#include "execution/lock.hpp"
 #include "temporary_folder.hpp"
 
 namespace traverse::batch {

@@ -1,4 +1,4 @@
-#include "recordings.hpp"
+#include "plan/recordings.hpp"
 
 #include <filesystem>
 #include <string>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "batch/made_plan.hpp"
-#include "program_id.hpp"
+#include "plan/program_id.hpp"
 
 namespace traverse::batch {
 namespace {

@@ -1,11 +1,11 @@
-#include "report.hpp"
+#include "results/report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "batch/made_plan.hpp"
-#include "report_data.hpp"
+#include "results/report_data.hpp"
 
 namespace traverse::batch {
 namespace {

@@ -1,4 +1,4 @@
-#include "run_process.hpp"
+#include "execution/run_process.hpp"
 
 #include <atomic>
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "summary.hpp"
+#include "results/summary.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

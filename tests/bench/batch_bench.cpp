@@ -19,7 +19,7 @@
 #include "traverse/batch/metric.hpp"
 #include "traverse/batch/results.hpp"
 
-#include "report.hpp"
+#include "results/report.hpp"
 #include "temporary_folder.hpp"
 
 namespace traverse::batch {

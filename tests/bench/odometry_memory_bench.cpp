@@ -65,7 +65,7 @@ class Ledger {
     held_ += held - before;
   }
   double held_mb() const { return static_cast<double>(held_) / kMegabyte; }
-  double most_mb() const { return static_cast<double>(most_) / kMegabyte; }
+  double max_mb() const { return static_cast<double>(most_) / kMegabyte; }
 
  private:
   std::ptrdiff_t held_ = 0;
@@ -99,7 +99,7 @@ int drive(const std::string& world_name, int laps) {
       const bool complete = lap < laps ? driven_m[i] >= lap * lap_m : i + 1 == sweeps;
       if (!complete) continue;
       std::printf("%4d %8zu %10.2f %12.2f\n", lap, odometry.map().size(), ledger.held_mb(),
-                  ledger.most_mb());
+                  ledger.max_mb());
       std::fflush(stdout);
       ++lap;
     }

@@ -1,4 +1,4 @@
-#include "reorder_window.hpp"
+#include "recording/reorder_window.hpp"
 
 #include <gtest/gtest.h>
 

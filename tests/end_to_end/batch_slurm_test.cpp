@@ -34,7 +34,7 @@ grid: {solver.huber_m: [0.05, 0.1, 0.15, 0.2, 0.25]}
 repeats: 2
 reports: false
 limits: {time_s: 300, memory_mb: 2000}
-slurm: {runs_per_task: 2, most_at_once: 4, options: {nice: 10}}
+slurm: {runs_per_task: 2, max_at_once: 4, options: {nice: 10}}
 )";
 
 /// A real Slurm of one node on the loopback, begun for these tests.

@@ -39,7 +39,7 @@ TEST(CheckJacobians, EveryFactorOfTraversePasses) {
   EXPECT_EQ(audit["states"], 50);
   EXPECT_EQ(audit["seed"], 3);
   for (const json& factor : audit["factors"]) {
-    EXPECT_GT(factor["least_residual"], 0.1);
+    EXPECT_GT(factor["min_residual"], 0.1);
     for (const json& block : factor["blocks"]) {
       EXPECT_LT(block["automatic"]["relative"], audit["tolerance"]["automatic"]);
       EXPECT_LT(block["numeric"]["relative"], audit["tolerance"]["numeric"]);

@@ -111,7 +111,7 @@ TEST_F(MapCommand, SaysWhatIsWrong) {
 TEST_F(MapCommand, ListsItsSettings) {
   const ProgramResult result = run_program("map --settings");
   EXPECT_EQ(result.status, 0) << result.messages;
-  for (const char* key : {"voxel_m", "free_space.least_votes", "grid.cell_m", "merge.samples"}) {
+  for (const char* key : {"voxel_m", "free_space.min_votes", "grid.cell_m", "merge.samples"}) {
     EXPECT_THAT(result.output, HasSubstr(key));
   }
 }

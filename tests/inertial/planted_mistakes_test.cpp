@@ -14,8 +14,8 @@
 #include "traverse/inertial/residuals.hpp"
 #include "traverse/optimization/jacobian_audit.hpp"
 
-#include "link_models.hpp"
-#include "state_blocks.hpp"
+#include "factors/link_models.hpp"
+#include "smoother/state_blocks.hpp"
 
 namespace traverse::inertial {
 namespace {

@@ -15,7 +15,7 @@ TEST(FactorKinds, AllPassOnBothSidesFarFromZeroResidual) {
   EXPECT_EQ(audit.factors.size(), 16U);  // four residuals, deskewed and swept, two sides
   for (const optimization::FactorAudit& factor : audit.factors) {
     EXPECT_TRUE(factor.passed) << factor.factor << " " << name_of(factor.perturbation);
-    EXPECT_GE(factor.least_residual, 0.49) << factor.factor;
+    EXPECT_GE(factor.min_residual, 0.49) << factor.factor;
     for (const optimization::BlockAudit& block : factor.blocks) {
       EXPECT_GT(block.largest_entry, 0.5) << factor.factor;
       EXPECT_LT(block.automatic.relative, 1e-12) << factor.factor << " " << block.block;

@@ -20,7 +20,7 @@ inline void expect_audit_passes(const std::vector<optimization::FactorKind>& kin
   EXPECT_EQ(audit.factors.size(), kinds.size());
   EXPECT_TRUE(audit.passed());
   for (const auto& factor : audit.factors) {
-    EXPECT_GT(factor.least_residual, 1e-6) << factor.factor;
+    EXPECT_GT(factor.min_residual, 1e-6) << factor.factor;
     for (const auto& block : factor.blocks) {
       EXPECT_TRUE(block.passed) << factor.factor << ", " << block.block << ": automatic "
                                 << block.automatic.relative << ", numeric "

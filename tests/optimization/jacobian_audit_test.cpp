@@ -21,7 +21,7 @@ TEST(JacobianAudit, PassesAFactorThatIsRight) {
   const JacobianAudit audit = audit_of(turned_point_kind(Perturbation::kLeft));
   EXPECT_TRUE(audit.passed());
   ASSERT_EQ(audit.factors.size(), 1U);
-  EXPECT_GT(audit.factors[0].least_residual, 0.1);
+  EXPECT_GT(audit.factors[0].min_residual, 0.1);
   const BlockAudit& block = audit.factors[0].blocks.at(0);
   EXPECT_TRUE(block.passed);
   EXPECT_GT(block.largest_entry, 5);

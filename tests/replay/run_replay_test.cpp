@@ -46,7 +46,7 @@ TEST_F(RunReplay, ShowsTheFramesOfTheRun) {
   const Recording run = open();
   EXPECT_TRUE(run.is_run());
   EXPECT_EQ(run.first_frame(), 3U);
-  EXPECT_EQ(run.most_frames(), 12U);
+  EXPECT_EQ(run.max_frames(), 12U);
 
   const pipeline::Pipeline pipeline = run.make_pipeline({}, 1);
   EXPECT_EQ(pipeline.name, "traverse (as run)");

@@ -6,7 +6,7 @@
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/text_file.hpp"
 
-#include "comparison.hpp"
+#include "comparison/comparison.hpp"
 #include "made_run.hpp"
 #include "temporary_folder.hpp"
 

@@ -1,8 +1,8 @@
-#include "exports.hpp"
+#include "page/exports.hpp"
 
 #include <gtest/gtest.h>
 
-#include "html_table.hpp"
+#include "page/html_table.hpp"
 
 namespace traverse::report {
 namespace {

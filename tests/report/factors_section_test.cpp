@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sections.hpp"
+#include "sections/sections.hpp"
 
 namespace traverse::report {
 namespace {
@@ -30,7 +30,7 @@ optimization::JacobianAudit made_audit(bool passed) {
   optimization::FactorAudit factor;
   factor.factor = "line vector";
   factor.formula = "r = u x (q - c)";
-  factor.least_residual = 0.5;
+  factor.min_residual = 0.5;
   factor.blocks = {{"rotation", 27, {1e-14, 1e-15, 3}, {1e-10, 2e-11, 4}, passed}};
   factor.passed = passed;
   return {{}, {factor}};

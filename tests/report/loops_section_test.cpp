@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sections.hpp"
+#include "sections/sections.hpp"
 
 namespace traverse::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "number_text.hpp"
+#include "page/number_text.hpp"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "packed_points.hpp"
+#include "page/packed_points.hpp"
 
 #include <random>
 

@@ -1,4 +1,4 @@
-#include "page.hpp"
+#include "page/page.hpp"
 
 #include <algorithm>
 #include <regex>
@@ -16,13 +16,13 @@
 #include "traverse/pipeline/run_folder.hpp"
 #include "traverse/report/run_report.hpp"
 
+#include "figures/run_figures.hpp"
 #include "made_run.hpp"
-#include "number_text.hpp"
-#include "report_model.hpp"
-#include "run_data.hpp"
-#include "run_figures.hpp"
+#include "page/number_text.hpp"
+#include "page/web_libraries.hpp"
+#include "run/report_model.hpp"
+#include "run/run_data.hpp"
 #include "temporary_folder.hpp"
-#include "web_libraries.hpp"
 
 namespace traverse::report {
 namespace {

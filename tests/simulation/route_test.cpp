@@ -57,18 +57,18 @@ TEST(Route, AnotherDriverKeepsBesideTheLineTheSameInEachLap) {
   const Route line(settings);
   const Route other(settings, 3);
   EXPECT_EQ(other.lap_m(), line.lap_m());
-  double most_m = 0;
+  double max_m = 0;
   for (double s = 0; s < line.lap_m(); s += 1) {
     EXPECT_LT((other.point(s) - other.point(s + line.lap_m())).norm(), 1e-9);
     const double beside_m = (other.point(s) - line.point(s)).norm();
     EXPECT_LT(beside_m, 0.401);
-    most_m = std::max(most_m, beside_m);
+    max_m = std::max(max_m, beside_m);
     // The wheels roll along the line that is driven.
     const Eigen::Vector2d ahead = other.point(s + 1e-4) - other.point(s - 1e-4);
     EXPECT_NEAR(std::remainder(std::atan2(ahead.y(), ahead.x()) - other.heading(s), 6.283185307), 0,
                 1e-6);
   }
-  EXPECT_GT(most_m, 0.1);
+  EXPECT_GT(max_m, 0.1);
   EXPECT_GT((Route(settings, 4).point(30) - other.point(30)).norm(), 0.01);
 }
 

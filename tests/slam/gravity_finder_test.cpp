@@ -84,7 +84,7 @@ TEST(GravityFinder, AVehicleThatAcceleratesDoesNotTiltUp) {
   HillyDrive unaware;
   unaware.disturb_frame = [](lidar::Frame& frame) { frame.T_map_lidar.translation.setZero(); };
   GravityOptions lenient;
-  lenient.most_off_m_s2 = 5;
+  lenient.max_off_m_s2 = 5;
   GravityFinder by_readings = unaware.finder(lenient);
   double worst = 0;
   for (const MeasuredUp& up : unaware.ups(by_readings)) {
@@ -106,7 +106,7 @@ TEST(GravityFinder, SigmaIsThatOfTheErrors) {
   GravityOptions options;
   options.odometry_sigma_m = 0.02;
   options.acceleration_share = 0;
-  options.least_sigma_deg = 1e-3;
+  options.min_sigma_deg = 1e-3;
   double chi2 = 0;
   std::size_t freedom = 0;
   for (int repeat = 0; repeat < 20; ++repeat) {
@@ -128,7 +128,7 @@ TEST(GravityFinder, DoesWithoutWindowsThatCannotBeTrusted) {
   EXPECT_GE(wrong_length.turned_away(), 6U);
 
   GravityOptions impatient;
-  impatient.most_gap_s = 0.005;
+  impatient.max_gap_s = 0.005;
   const HillyDrive good;
   GravityFinder slow_samples = good.finder(impatient);
   EXPECT_TRUE(good.ups(slow_samples).empty());

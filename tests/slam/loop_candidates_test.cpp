@@ -11,7 +11,7 @@ namespace {
 /// A drive along x, a keyframe every 2 m.
 LoopCandidates straight_drive(std::size_t keyframes) {
   CandidateOptions options;
-  options.least_way_m = 40;
+  options.min_way_m = 40;
   LoopCandidates candidates(options);
   for (std::size_t i = 0; i < keyframes; ++i) {
     const double x = 2 * static_cast<double>(i);
@@ -47,8 +47,8 @@ TEST(LoopCandidates, FollowsTheSolvedPositions) {
 TEST(LoopCandidates, TheNearestIsThatOfThePresentPositions) {
   LoopCandidates candidates = straight_drive(200);
   std::mt19937 random(3);
-  for (const double most_m : {0.1, 0.9, 0.9, 6.0, 0.5}) {
-    std::uniform_real_distribution<double> move(-most_m / 2, most_m / 2);
+  for (const double max_m : {0.1, 0.9, 0.9, 6.0, 0.5}) {
+    std::uniform_real_distribution<double> move(-max_m / 2, max_m / 2);
     std::vector<Eigen::Vector3d> p_map;
     for (int i = 0; i < 200; ++i) p_map.emplace_back(2.0 * i + move(random), move(random), 0);
     candidates.move(p_map);

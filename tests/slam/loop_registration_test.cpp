@@ -97,7 +97,7 @@ TEST(LoopStarts, CoverTheRegionFromTheInsideOut) {
   EXPECT_NEAR(farthest, 2, 0.5);
   EXPECT_EQ(starts_around(guess, {0, 0}, options).size(), 1U);
   EXPECT_LE(starts_around(guess, {500, std::numbers::pi}, options).size(),
-            static_cast<std::size_t>(2 * options.most_starts));
+            static_cast<std::size_t>(2 * options.max_starts));
 }
 
 /// After tracking was lost a prediction is off by kilometres and many turns.
@@ -112,7 +112,7 @@ TEST(LoopStarts, AreFewHoweverLargeTheRegionIs) {
       for (const double half_turn_rad : {0.0, 0.1, 3.2, 1e4, 1e12, 1e300, infinite}) {
         const auto starts = starts_around({}, {radius_m, half_turn_rad}, options);
         EXPECT_GE(starts.size(), 1U);
-        EXPECT_LE(starts.size(), static_cast<std::size_t>(3 * options.most_starts))
+        EXPECT_LE(starts.size(), static_cast<std::size_t>(3 * options.max_starts))
             << radius_m << " m, " << half_turn_rad << " rad";
       }
     }

@@ -14,7 +14,7 @@ using testing::MadeFrame;
 
 SlamOptions options() {
   SlamOptions options;
-  options.candidates.least_way_m = 25;
+  options.candidates.min_way_m = 25;
   return options;
 }
 

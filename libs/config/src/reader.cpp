@@ -40,8 +40,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 /// Reads one mapping level; remembers which keys were bound, to name those that were not.
 class Reader : public Binder {
  public:
-  Reader(const Entry& mapping, std::string prefix)
-      : mapping_(mapping), prefix_(std::move(prefix)) {}
+  Reader(const Entry& mapping, std::string prefix, std::vector<std::string>& notes)
+      : mapping_(mapping), prefix_(std::move(prefix)), notes_(notes) {}
 
   void number(std::string_view key, double& value, Range range, std::string_view) override {
     const Entry* entry = take(key);
@@ -108,7 +108,7 @@ class Reader : public Binder {
     static const Entry kEmpty{{}, {}, 0, {}, {}, {}, true};
     const Entry* entry = take(key);
     if (entry != nullptr && !entry->is_mapping) throw wrong(*entry, "a mapping");
-    Reader reader(entry != nullptr ? *entry : kEmpty, path(key) + ".");
+    Reader reader(entry != nullptr ? *entry : kEmpty, path(key) + ".", notes_);
     body(reader);
     reader.reject_unbound();
   }
@@ -127,7 +127,26 @@ class Reader : public Binder {
  private:
   const Entry* take(std::string_view key) {
     bound_.emplace(key);
-    return mapping_.find(key);
+    const std::string former = former_name(key);
+    const Entry* old = former.empty() ? nullptr : mapping_.find(former);
+    if (old == nullptr) return mapping_.find(key);
+    bound_.emplace(former);
+    const Entry* entry = mapping_.find(key);
+    notes_.push_back(fmt::format("{}: '{}' is called '{}' now{}", place_text(*old), path(former),
+                                 path(key),
+                                 entry == nullptr ? "" : ", which is given too and wins"));
+    return entry == nullptr ? old : entry;
+  }
+
+  /// What a limit was called up to version 0.1: least_ for min_, most_ for max_.
+  static std::string former_name(std::string_view key) {
+    if (key.starts_with("min_")) return fmt::format("least_{}", key.substr(4));
+    if (key.starts_with("max_")) return fmt::format("most_{}", key.substr(4));
+    return "";
+  }
+
+  static std::string place_text(const Entry& entry) {
+    return entry.line > 0 ? fmt::format("{}, line {}", entry.origin, entry.line) : entry.origin;
   }
 
   std::string path(std::string_view key) const { return prefix_ + std::string(key); }
@@ -159,16 +178,20 @@ class Reader : public Binder {
 
   const Entry& mapping_;
   std::string prefix_;
+  std::vector<std::string>& notes_;
   std::set<std::string, std::less<>> bound_;
 };
 
 }  // namespace
 
-void read(const Document& document, const Bind& bind, std::span<const std::string_view> others) {
-  Reader reader(document.tree().root, "");
+std::vector<std::string> read(const Document& document, const Bind& bind,
+                              std::span<const std::string_view> others) {
+  std::vector<std::string> notes;
+  Reader reader(document.tree().root, "", notes);
   for (const std::string_view key : others) reader.read_elsewhere(key);
   bind(reader);
   reader.reject_unbound();
+  return notes;
 }
 
 }  // namespace traverse::config

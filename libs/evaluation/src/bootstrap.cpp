@@ -23,12 +23,12 @@ std::size_t uniform_below(std::mt19937_64& generator, std::size_t count) {
   return static_cast<std::size_t>(share * static_cast<double>(count));
 }
 
-std::vector<double> autocovariances(std::span<const double> values, std::size_t most_lag) {
+std::vector<double> autocovariances(std::span<const double> values, std::size_t max_lag) {
   const auto n = static_cast<double>(values.size());
   double mean = 0;
   for (const double value : values) mean += value / n;
-  std::vector<double> result(most_lag + 1, 0.0);
-  for (std::size_t lag = 0; lag <= most_lag; ++lag) {
+  std::vector<double> result(max_lag + 1, 0.0);
+  for (std::size_t lag = 0; lag <= max_lag; ++lag) {
     for (std::size_t i = lag; i < values.size(); ++i) {
       result[lag] += (values[i] - mean) * (values[i - lag] - mean) / n;
     }
@@ -107,11 +107,11 @@ std::size_t block_length(std::span<const double> values) {
   const auto n = static_cast<double>(values.size());
   const auto run =
       std::max<std::size_t>(5, static_cast<std::size_t>(std::ceil(std::sqrt(std::log10(n)))));
-  const auto most_lag =
+  const auto max_lag =
       std::min(values.size() - 1, static_cast<std::size_t>(std::ceil(std::sqrt(n))) + run);
-  const std::vector<double> covariance = autocovariances(values, most_lag);
+  const std::vector<double> covariance = autocovariances(values, max_lag);
   const std::size_t span = std::min(
-      most_lag, 2 * std::max<std::size_t>(1, last_significant_lag(covariance, run, values.size())));
+      max_lag, 2 * std::max<std::size_t>(1, last_significant_lag(covariance, run, values.size())));
   double spectrum = covariance.front();
   double slope = 0;
   for (std::size_t lag = 1; lag <= span; ++lag) {

@@ -58,10 +58,9 @@ Pairs all_path_pairs(const Poses& poses, double delta_m) {
   const std::vector<double> path_m = accumulated_distances(poses);
   for (auto from = path_m.begin(); from != path_m.end() && from + 1 != path_m.end(); ++from) {
     const auto surplus = [&](double length_m) { return length_m - *from - delta_m; };
-    const auto first_with = [&](double least_surplus) {
-      return std::partition_point(from + 1, path_m.end(), [&](double length_m) {
-        return surplus(length_m) < least_surplus;
-      });
+    const auto first_with = [&](double min_surplus) {
+      return std::partition_point(from + 1, path_m.end(),
+                                  [&](double length_m) { return surplus(length_m) < min_surplus; });
     };
     auto to = first_with(0);
     if (to == path_m.end() || (to != from + 1 && -surplus(*(to - 1)) <= surplus(*to))) {
@@ -92,12 +91,12 @@ Pairs consecutive_angle_pairs(const Poses& poses, double delta_rad) {
 /// Every two poses are looked at; those whose trace(R_i^T R_j) = 1 + 2 cos(angle) is clearly
 /// outside cost nine products, only the others the exact angle.
 Pairs all_angle_pairs(const Poses& poses, double delta_rad) {
-  const double least_rad = delta_rad * (1 - kRelativeTolerance);
-  const double most_rad = delta_rad * (1 + kRelativeTolerance);
+  const double min_rad = delta_rad * (1 - kRelativeTolerance);
+  const double max_rad = delta_rad * (1 + kRelativeTolerance);
   constexpr double kMargin = 0.05;  // the traces of matrices rounded to a few decimals are off
-  const double most_trace = 1 + 2 * std::cos(least_rad) + kMargin;
-  const double least_trace =
-      most_rad < std::numbers::pi ? 1 + 2 * std::cos(most_rad) - kMargin : -1 - kMargin;
+  const double max_trace = 1 + 2 * std::cos(min_rad) + kMargin;
+  const double min_trace =
+      max_rad < std::numbers::pi ? 1 + 2 * std::cos(max_rad) - kMargin : -1 - kMargin;
   std::vector<Eigen::Matrix3d> rotations;
   rotations.reserve(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) rotations.push_back(poses[i].rotation);
@@ -105,9 +104,9 @@ Pairs all_angle_pairs(const Poses& poses, double delta_rad) {
   for (std::size_t i = 0; i < rotations.size(); ++i) {
     for (std::size_t j = i + 1; j < rotations.size(); ++j) {
       const double trace = rotations[i].cwiseProduct(rotations[j]).sum();
-      if (trace < least_trace || trace > most_trace) continue;
+      if (trace < min_trace || trace > max_trace) continue;
       const double angle_rad = geometry::angle_of(rotations[i].transpose() * rotations[j]);
-      if (angle_rad >= least_rad && angle_rad <= most_rad) pairs.push_back({i, j});
+      if (angle_rad >= min_rad && angle_rad <= max_rad) pairs.push_back({i, j});
     }
   }
   return pairs;

@@ -16,13 +16,13 @@ geometry::Twist Observability::well_observed(const geometry::Twist& twist) const
 }
 
 Observability observability(const Matrix6& information, double rotation_scale_m,
-                            double least_eigenvalue) {
+                            double min_eigenvalue) {
   Observability result;
   result.rotation_scale_m = rotation_scale_m;
   const Eigen::SelfAdjointEigenSolver<Matrix6> solver(information);
   result.eigenvalues = solver.eigenvalues();
   result.directions = solver.eigenvectors();
-  result.degenerate = static_cast<int>((result.eigenvalues.array() < least_eigenvalue).count());
+  result.degenerate = static_cast<int>((result.eigenvalues.array() < min_eigenvalue).count());
   return result;
 }
 

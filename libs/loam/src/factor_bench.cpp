@@ -133,7 +133,7 @@ FactorBench measure_factors(const FrameCorrespondences& frame, const SolverOptio
   bench.repeats = std::max(1, repeats);
   measure_evaluations(frame.matches, frame.guess_T_map_lidar, Sweep::kDeskewed, bench);
   measure_evaluations(frame.swept, frame.guess_T_begin_end, Sweep::kSwept, bench);
-  const auto enough = static_cast<std::size_t>(solver.least_matches);
+  const auto enough = static_cast<std::size_t>(solver.min_matches);
   if (frame.matches.size() >= enough) {
     measure_solves(frame.matches, frame.guess_T_map_lidar, Sweep::kDeskewed, solver, bench);
   }

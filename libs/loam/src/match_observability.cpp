@@ -23,7 +23,7 @@ double median_range(const Matches& matches) {
 }  // namespace
 
 lidar::Observability observability(const Matches& matches, const geometry::Pose3& T_map_lidar,
-                                   double least_eigenvalue) {
+                                   double min_eigenvalue) {
   lidar::Observability result;
   if (matches.size() == 0) {
     result.degenerate = 6;
@@ -58,7 +58,7 @@ lidar::Observability observability(const Matches& matches, const geometry::Pose3
   }
   information = lidar::Matrix6(information.selfadjointView<Eigen::Lower>());
   information /= static_cast<double>(matches.size());
-  return lidar::observability(information, rotation_scale_m, least_eigenvalue);
+  return lidar::observability(information, rotation_scale_m, min_eigenvalue);
 }
 
 }  // namespace traverse::loam

@@ -7,8 +7,8 @@
 namespace traverse::loam {
 
 /// How well `matches` determine each direction of motion at the pose `T_map_lidar`.
-/// \param least_eigenvalue directions with a smaller eigenvalue are degenerate
+/// \param min_eigenvalue directions with a smaller eigenvalue are degenerate
 lidar::Observability observability(const Matches& matches, const geometry::Pose3& T_map_lidar,
-                                   double least_eigenvalue);
+                                   double min_eigenvalue);
 
 }  // namespace traverse::loam

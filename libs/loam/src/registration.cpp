@@ -79,9 +79,9 @@ void bind(config::Binder& b, SolverOptions& o) {
   b.integer("iterations", o.iterations, Range::between(1, 1000),
             "Levenberg-Marquardt steps in one solve");
   b.number("huber_m", o.huber_m, Range::positive(), "residuals beyond count linearly");
-  b.integer("least_matches", o.least_matches, Range::between(6, 1e6),
+  b.integer("min_matches", o.min_matches, Range::between(6, 1e6),
             "with fewer matches the prediction stands");
-  b.number("least_eigenvalue", o.least_eigenvalue, Range::between(0, 1),
+  b.number("min_eigenvalue", o.min_eigenvalue, Range::between(0, 1),
            "directions below are degenerate and keep their prediction");
 }
 
@@ -89,7 +89,7 @@ SolveResult solve_pose(const Matches& matches, const geometry::Pose3& guess_T_ma
                        const SolverOptions& options) {
   SolveResult result;
   result.T_map_lidar = guess_T_map_lidar;
-  if (matches.size() < static_cast<std::size_t>(options.least_matches)) {
+  if (matches.size() < static_cast<std::size_t>(options.min_matches)) {
     result.observability.degenerate = 6;
     return result;
   }
@@ -115,7 +115,7 @@ SolveResult solve_pose(const Matches& matches, const geometry::Pose3& guess_T_ma
   if (!solution.is_usable) return result;
 
   const geometry::Pose3 solved = blocks.pose();
-  result.observability = observability(matches, solved, options.least_eigenvalue);
+  result.observability = observability(matches, solved, options.min_eigenvalue);
   if (result.observability.degenerate == 0) {
     result.T_map_lidar = solved;
   } else {

@@ -119,7 +119,7 @@ lidar::Frame ScanToMapOdometry::advance(const Prepared& scan) {
   }
   frame.velocity = velocity_;
   // A pose that is only predicted does not shape the map, unless there is no map yet.
-  const bool map_is_empty = map_.size() < static_cast<std::size_t>(options_.solver.least_matches);
+  const bool map_is_empty = map_.size() < static_cast<std::size_t>(options_.solver.min_matches);
   if (frame.health.registered || frames_ == 0 || map_is_empty) {
     map_.insert(features, frame.T_map_lidar, velocity_, frame.ms);
   }

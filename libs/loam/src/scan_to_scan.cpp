@@ -62,7 +62,7 @@ std::optional<Plane> plane_near(const Eigen::Vector3d& p_last, const LineIndex& 
   const double radius_m = options.search_radius_m;
   const auto a = planar.nearest(p_last, radius_m);
   if (!a) return std::nullopt;
-  const auto b = planar.nearest_along_line(p_last, radius_m, *a, options.least_baseline_m);
+  const auto b = planar.nearest_along_line(p_last, radius_m, *a, options.min_baseline_m);
   if (!b) return std::nullopt;
   const auto c = planar.nearest_across_lines(p_last, radius_m, *a, options.adjacent_lines);
   if (!c) return std::nullopt;
@@ -70,7 +70,7 @@ std::optional<Plane> plane_near(const Eigen::Vector3d& p_last, const LineIndex& 
   const Eigen::Vector3d ac = planar.point(*c) - planar.point(*a);
   const Eigen::Vector3d across = ab.cross(ac);
   // Also false for three points of which two are one.
-  if (!(across.norm() > options.least_triangle_sine * ab.norm() * ac.norm())) return std::nullopt;
+  if (!(across.norm() > options.min_triangle_sine * ab.norm() * ac.norm())) return std::nullopt;
   const Eigen::Vector3d normal = across.normalized();
   return Plane{normal, -normal.dot(planar.point(*a))};
 }
@@ -91,13 +91,13 @@ void bind(config::Binder& b, ScanToScanOptions& o) {
             "scan lines up to this far away are adjacent");
   b.number("planar_voxel_m", o.planar_voxel_m, Range::positive(),
            "one planar point of each line a cube is kept of the last scan");
-  b.number("least_baseline_m", o.least_baseline_m, Range::non_negative(),
+  b.number("min_baseline_m", o.min_baseline_m, Range::non_negative(),
            "between the two points of one scan line that help to make a plane");
-  b.number("least_triangle_sine", o.least_triangle_sine, Range::between(0, 1),
+  b.number("min_triangle_sine", o.min_triangle_sine, Range::between(0, 1),
            "three points whose sides meet at a smaller angle do not make a plane");
   b.number("huber_m", o.huber_m, Range::positive(),
            "residuals beyond count linearly, in place of solver.huber_m");
-  b.number("least_eigenvalue", o.least_eigenvalue, Range::between(0, 1),
+  b.number("min_eigenvalue", o.min_eigenvalue, Range::between(0, 1),
            "directions below are degenerate and keep their prediction, in place of the solver's");
 }
 
@@ -121,7 +121,7 @@ ScanToScan::ScanToScan(const ScanToScanOptions& options, const SolverOptions& so
                        int threads)
     : options_(options), solver_(solver), deskew_(deskew), threads_(threads) {
   solver_.huber_m = options.huber_m;
-  solver_.least_eigenvalue = options.least_eigenvalue;
+  solver_.min_eigenvalue = options.min_eigenvalue;
 }
 
 geometry::Twist MotionPrediction::velocity_given(const geometry::Pose3& found) const {

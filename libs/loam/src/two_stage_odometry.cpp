@@ -207,7 +207,7 @@ lidar::Frame TwoStageOdometry::advance(const Prepared& scan) {
     }
   }
   // A pose that is only predicted does not shape the map, unless there is no map yet.
-  const bool map_is_empty = map_.size() < static_cast<std::size_t>(options_.solver.least_matches);
+  const bool map_is_empty = map_.size() < static_cast<std::size_t>(options_.solver.min_matches);
   if (frame.health.registered || odometry.health.registered || map_is_empty) {
     map_.insert(scan.features, frame.T_map_lidar, frame.velocity, frame.ms);
   }

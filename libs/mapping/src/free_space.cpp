@@ -30,7 +30,7 @@ void vote(const RayBundle& rays, const SurfaceCube& cube, const FreeSpaceOptions
   const double sine = cube.normal.isZero()
                           ? kUnknownSine
                           : std::max(kLeastSine, std::abs(cube.normal.dot(ray->direction)));
-  const double margin = options.least_gap_m + ray->distance_m / sine;
+  const double margin = options.min_gap_m + ray->distance_m / sine;
   if (ray->beyond_m > margin) {
     ++votes.saw_through;
   } else if (ray->beyond_m > -margin) {
@@ -79,13 +79,13 @@ struct FreeSpace::Content {
 void bind(config::Binder& b, FreeSpaceOptions& o) {
   using config::Range;
   b.number("voxel_m", o.voxel_m, Range::between(0.02, 10), "edge of the cubes that are judged");
-  b.number("most_range_m", o.most_range_m, Range::between(0.1, 1000),
+  b.number("max_range_m", o.max_range_m, Range::between(0.1, 1000),
            "keyframes farther away do not judge");
   b.number("ray_radius_m", o.ray_radius_m, Range::positive(),
            "a ray that passes so near sees through, or hits");
-  b.number("least_gap_m", o.least_gap_m, Range::positive(),
+  b.number("min_gap_m", o.min_gap_m, Range::positive(),
            "and sees through if it ends so far behind, more at grazing incidence");
-  b.integer("least_votes", o.least_votes, Range::between(1, 1e6),
+  b.integer("min_votes", o.min_votes, Range::between(1, 1e6),
             "keyframes that must have seen through");
   b.number("majority", o.majority, Range::positive(), "so many times those that hit");
 }
@@ -100,11 +100,11 @@ FreeSpace::FreeSpace(std::span<const MapKeyframe> keyframes, const FreeSpaceOpti
   std::vector<Votes> votes(cubes.size());
   for (std::size_t k = 0; k < keyframes.size(); ++k) {
     const RayBundle rays(keyframes[k]);
-    const auto near = cubes_around(blocks, rays.origin(), options.most_range_m);
+    const auto near = cubes_around(blocks, rays.origin(), options.max_range_m);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, near.size()), [&](const auto& range) {
       for (std::size_t i = range.begin(); i < range.end(); ++i) {
         const SurfaceCube& cube = cubes[near[i]];
-        if ((cube.mean - rays.origin()).norm() > options.most_range_m) continue;
+        if ((cube.mean - rays.origin()).norm() > options.max_range_m) continue;
         vote(rays, cube, options, votes[near[i]]);
       }
     });
@@ -112,7 +112,7 @@ FreeSpace::FreeSpace(std::span<const MapKeyframe> keyframes, const FreeSpaceOpti
   }
   content_->is_free.resize(cubes.size());
   std::transform(votes.begin(), votes.end(), content_->is_free.begin(), [&](const Votes& v) {
-    return v.saw_through >= options.least_votes && v.saw_through > options.majority * v.hit ? 1 : 0;
+    return v.saw_through >= options.min_votes && v.saw_through > options.majority * v.hit ? 1 : 0;
   });
 }
 

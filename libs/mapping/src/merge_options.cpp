@@ -10,10 +10,10 @@ void bind(config::Binder& b, MergeOptions& o) {
             "keyframes that look most alike, for each of them");
   b.number("search_m", o.search_m, Range::non_negative(), "registrations start so far around one");
   b.number("search_deg", o.search_deg, Range::between(0, 180), "and so far turned");
-  b.number("least_overlap", o.least_overlap, Range::between(0, 1),
+  b.number("min_overlap", o.min_overlap, Range::between(0, 1),
            "share of a keyframe's flat points on the other run's surfaces");
-  b.number("most_residual_m", o.most_residual_m, Range::positive(), "rms of the matches");
-  b.integer("least_agreeing", o.least_agreeing, Range::between(1, 1e6),
+  b.number("max_residual_m", o.max_residual_m, Range::positive(), "rms of the matches");
+  b.integer("min_agreeing", o.min_agreeing, Range::between(1, 1e6),
             "registrations that must place a run alike");
   b.number("agreement_m", o.agreement_m, Range::positive(), "how much alike");
   b.number("agreement_deg", o.agreement_deg, Range::positive(), "and in rotation");

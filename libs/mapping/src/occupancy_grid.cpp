@@ -53,12 +53,12 @@ ObstacleScan obstacle_scan(const MapKeyframe& keyframe, const GroundHeights& gro
     const Eigen::Vector2d d = p.head<2>() - scan.origin;
     const double range = d.norm();
     const auto ground_z = ground.at(p);
-    if (range > options.most_range_m || !ground_z) continue;
+    if (range > options.max_range_m || !ground_z) continue;
     const double height = p.z() - *ground_z;
     const std::size_t beam = beam_of(d);
-    if (height < options.least_height_m) {
+    if (height < options.min_height_m) {
       scan.ground_m[beam] = std::max(scan.ground_m[beam], range);
-    } else if (height <= options.most_height_m) {
+    } else if (height <= options.max_height_m) {
       scan.obstacle_m[beam] = std::min(scan.obstacle_m[beam], range);
     }
   }
@@ -115,11 +115,11 @@ struct OccupancyGrid::Content {
 void bind(config::Binder& b, OccupancyOptions& o) {
   using config::Range;
   b.number("cell_m", o.cell_m, Range::between(0.01, 10), "edge of a cell");
-  b.number("most_range_m", o.most_range_m, Range::positive(),
+  b.number("max_range_m", o.max_range_m, Range::positive(),
            "points farther from the sensor do not count");
-  b.number("least_height_m", o.least_height_m, Range::non_negative(),
+  b.number("min_height_m", o.min_height_m, Range::non_negative(),
            "above the ground, from which on something is an obstacle");
-  b.number("most_height_m", o.most_height_m, Range::positive(), "up to which it is one");
+  b.number("max_height_m", o.max_height_m, Range::positive(), "up to which it is one");
 }
 
 OccupancyGrid::OccupancyGrid(std::span<const MapKeyframe> keyframes,

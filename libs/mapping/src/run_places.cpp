@@ -86,8 +86,8 @@ std::optional<Placement> place(const RunPlaces& run, std::size_t keyframe, const
   const auto starts = slam::starts_around(guess_other_keyframe, region, registration);
   const auto found = slam::register_in(on, run.features(keyframe), starts, registration);
   const bool is_sure = found.health.registered && found.health.observability.degenerate == 0 &&
-                       found.overlap >= options.least_overlap &&
-                       found.health.residual_rms_m <= options.most_residual_m;
+                       found.overlap >= options.min_overlap &&
+                       found.health.residual_rms_m <= options.max_residual_m;
   if (!is_sure) return std::nullopt;
   return Placement{found.T_centre_lidar, found.overlap, found.health.residual_rms_m};
 }

@@ -100,7 +100,7 @@ std::optional<geometry::Pose3> RunSearch::largest_agreement(
   std::vector<std::size_t> support;
   for (const Hypothesis& one : hypotheses) support.push_back(agreeing(run, one, hypotheses));
   const auto most = std::max_element(support.begin(), support.end());
-  if (most == support.end() || *most < static_cast<std::size_t>(options_.least_agreeing)) {
+  if (most == support.end() || *most < static_cast<std::size_t>(options_.min_agreeing)) {
     return std::nullopt;
   }
   const Hypothesis& best = hypotheses[static_cast<std::size_t>(most - support.begin())];

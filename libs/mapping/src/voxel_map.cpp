@@ -15,8 +15,8 @@ struct VoxelMap::Occupied {
   tsl::robin_set<std::uint64_t, geometry::VoxelHash> voxels;
 };
 
-VoxelMap::VoxelMap(double voxel_m, std::size_t most_points)
-    : voxel_m_(voxel_m), most_points_(most_points), occupied_(std::make_unique<Occupied>()) {}
+VoxelMap::VoxelMap(double voxel_m, std::size_t max_points)
+    : voxel_m_(voxel_m), max_points_(max_points), occupied_(std::make_unique<Occupied>()) {}
 VoxelMap::VoxelMap(VoxelMap&&) noexcept = default;
 VoxelMap& VoxelMap::operator=(VoxelMap&&) noexcept = default;
 VoxelMap::~VoxelMap() = default;
@@ -30,7 +30,7 @@ void VoxelMap::insert(std::span<const float> x, std::span<const float> y, std::s
   for (std::size_t i = 0; i < x.size(); ++i) {
     add(T_map_body * Eigen::Vector3d(x[i], y[i], z[i]), intensity.empty() ? 0 : intensity[i]);
   }
-  if (points_.size() > most_points_) coarsen();
+  if (points_.size() > max_points_) coarsen();
 }
 
 void VoxelMap::add(const Eigen::Vector3d& p_map, float intensity) {

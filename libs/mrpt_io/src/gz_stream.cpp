@@ -94,7 +94,7 @@ std::size_t GzInput::Read(void* to, std::size_t count) {
     position_ += part;
     done += part;
   }
-  if (most_counted_) check_count(to, count);
+  if (max_counted_) check_count(to, count);
   return count;
 }
 
@@ -105,7 +105,7 @@ void GzInput::check_count(const void* bytes, std::size_t count) {
     return;
   }
   std::memcpy(&number, bytes, sizeof number);
-  if (number > *most_counted_) throw std::runtime_error("a count that cannot be");
+  if (number > *max_counted_) throw std::runtime_error("a count that cannot be");
   things_follow_ = number == 1 || number == 2 || number == 4;
 }
 

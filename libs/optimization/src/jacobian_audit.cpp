@@ -37,16 +37,16 @@ void compare(const Eigen::MatrixXd& analytic, const Eigen::MatrixXd& other, std:
 /// A factor at a random state that is away from zero residual, where a norm has no derivative and
 /// a wrong Jacobian of it may look right.
 std::pair<FactorSample, Linearised> draw(const FactorKind& kind, Perturbation perturbation,
-                                         double least_residual, RandomStates& random) {
+                                         double min_residual, RandomStates& random) {
   constexpr int kMostDraws = 10000;
   for (int i = 0; i < kMostDraws; ++i) {
     FactorSample sample = kind.make(random, perturbation);
     Linearised analytic = linearise(*sample.analytic, kind.blocks, perturbation, sample.state);
-    if (!(analytic.residual.norm() < least_residual))  // nor one that is not a number
+    if (!(analytic.residual.norm() < min_residual))  // nor one that is not a number
       return {std::move(sample), std::move(analytic)};
   }
   throw std::invalid_argument(kind.name + ": none of " + std::to_string(kMostDraws) +
-                              " random states has a residual of " + std::to_string(least_residual) +
+                              " random states has a residual of " + std::to_string(min_residual) +
                               " or more");
 }
 
@@ -55,17 +55,17 @@ FactorAudit audit(const FactorKind& kind, Perturbation perturbation, const Audit
   result.factor = kind.name;
   result.formula = kind.formula;
   result.perturbation = perturbation;
-  result.least_residual = std::numeric_limits<double>::infinity();
+  result.min_residual = std::numeric_limits<double>::infinity();
   for (const ParameterBlock& block : kind.blocks) result.blocks.push_back({block.name, 0, {}, {}});
 
   RandomStates random(options.seed);
   for (std::size_t state = 0; state < options.states; ++state) {
-    const auto [sample, analytic] = draw(kind, perturbation, options.least_residual, random);
+    const auto [sample, analytic] = draw(kind, perturbation, options.min_residual, random);
     const Linearised automatic =
         linearise(*sample.automatic, kind.blocks, perturbation, sample.state);
     const auto numeric =
         central_differences(*sample.analytic, kind.blocks, perturbation, sample.state);
-    result.least_residual = std::min(result.least_residual, analytic.residual.norm());
+    result.min_residual = std::min(result.min_residual, analytic.residual.norm());
     result.value_difference =
         worse((analytic.residual - automatic.residual).norm(), result.value_difference);
     for (std::size_t k = 0; k < kind.blocks.size(); ++k) {

@@ -38,7 +38,7 @@ Json to_json(const FactorAudit& factor) {
           {"formula", factor.formula},
           {"perturbation", name_of(factor.perturbation)},
           {"passed", factor.passed},
-          {"least_residual", factor.least_residual},
+          {"min_residual", factor.min_residual},
           {"value_difference", factor.value_difference},
           {"blocks", std::move(blocks)}};
 }
@@ -51,13 +51,18 @@ Perturbation perturbation_from(const JsonValue& json) {
   throw json.error("left or right");
 }
 
+/// Folders written by version 0.1 say least_residual.
+JsonValue min_residual_of(const JsonValue& json) {
+  return json[json.has("least_residual") ? "least_residual" : "min_residual"];
+}
+
 FactorAudit factor_from(const JsonValue& json) {
   FactorAudit factor;
   factor.factor = json["factor"].text();
   factor.formula = json["formula"].text();
   factor.perturbation = perturbation_from(json["perturbation"]);
   factor.passed = json["passed"].boolean();
-  factor.least_residual = json["least_residual"].number_or_nan();
+  factor.min_residual = min_residual_of(json).number_or_nan();
   factor.value_difference = json["value_difference"].number_or_nan();
   const JsonValue blocks = json["blocks"];
   for (std::size_t i = 0; i < blocks.size(); ++i) {
@@ -77,7 +82,7 @@ std::string to_json(const JacobianAudit& audit) {
   const Json json{{"passed", audit.passed()},
                   {"states", audit.options.states},
                   {"seed", audit.options.seed},
-                  {"least_residual", audit.options.least_residual},
+                  {"min_residual", audit.options.min_residual},
                   {"tolerance",
                    {{"automatic", audit.options.automatic_tolerance},
                     {"numeric", audit.options.numeric_tolerance}}},
@@ -92,7 +97,7 @@ JacobianAudit audit_from_json(const JsonValue& json) {
   if (seed > std::numeric_limits<std::uint32_t>::max())
     throw json["seed"].error("a seed of 32 bits");
   audit.options.seed = static_cast<std::uint32_t>(seed);
-  audit.options.least_residual = json["least_residual"].number();
+  audit.options.min_residual = min_residual_of(json).number();
   audit.options.automatic_tolerance = json["tolerance"]["automatic"].number();
   audit.options.numeric_tolerance = json["tolerance"]["numeric"].number();
   const JsonValue factors = json["factors"];

@@ -23,9 +23,14 @@ namespace traverse::pipeline {
 
 namespace {
 
+struct ListedSettings {
+  std::vector<config::Setting> settings;
+  std::vector<std::string> notes;  // on keys given by former names
+};
+
 /// One algorithm: how its settings are read from a document, and how it is made from them.
 struct EstimatorKind {
-  std::function<std::vector<config::Setting>(const config::Document&)> settings;
+  std::function<ListedSettings(const config::Document&)> settings;
   std::function<std::unique_ptr<Estimator>(const config::Document&, const dataset::RecordingInfo&,
                                            int threads)>
       make;
@@ -33,10 +38,10 @@ struct EstimatorKind {
 
 /// Reads a preset's document, in which two keys beside the settings are for people.
 template <typename Settings>
-void read_preset(const config::Document& document, Settings& settings) {
+std::vector<std::string> read_preset(const config::Document& document, Settings& settings) {
   std::string estimator;
   std::string description;
-  config::read(document, [&](config::Binder& b) {
+  return config::read(document, [&](config::Binder& b) {
     b.text("estimator", estimator, "the algorithm");
     b.text("description", description, "what the preset is");
     bind(b, settings);
@@ -44,9 +49,9 @@ void read_preset(const config::Document& document, Settings& settings) {
 }
 
 template <typename Settings>
-std::vector<config::Setting> list_settings(const config::Document& document, Settings settings) {
-  read_preset(document, settings);
-  return config::list([&](config::Binder& b) { bind(b, settings); });
+ListedSettings list_settings(const config::Document& document, Settings settings) {
+  std::vector<std::string> notes = read_preset(document, settings);
+  return {config::list([&](config::Binder& b) { bind(b, settings); }), std::move(notes)};
 }
 
 /// The settings of a lidar odometry, and of the loops that may be closed over any of them.
@@ -132,13 +137,17 @@ void register_odometry(const std::string& name, const OdometryKind& kind) {
 
 std::vector<ResolvedSetting> resolve_settings(const Preset& preset) {
   const EstimatorKind& kind = find_kind(preset);
-  const std::vector<config::Setting> shipped = kind.settings(preset.as_shipped);
+  const std::vector<config::Setting> shipped = kind.settings(preset.as_shipped).settings;
   std::vector<ResolvedSetting> resolved;
-  for (config::Setting& setting : kind.settings(preset.resolved)) {
+  for (config::Setting& setting : kind.settings(preset.resolved).settings) {
     config::Setting::Value in_preset = shipped.at(resolved.size()).value;
     resolved.push_back({std::move(setting), std::move(in_preset)});
   }
   return resolved;
+}
+
+std::vector<std::string> settings_notes(const Preset& preset) {
+  return find_kind(preset).settings(preset.resolved).notes;
 }
 
 Pipeline make_pipeline(const Preset& preset, const dataset::RecordingInfo& recording, int threads) {

@@ -44,7 +44,7 @@ RunResults::RunResults(const Estimator& estimator, const dataset::RecordingInfo&
       score_every_(recording.expected_scans / kMostScoredScans + 1),
       frames_(table_columns(estimator)),
       scorer_(estimator.points_are()),
-      map_(options.map_voxel_m, options.most_map_points),
+      map_(options.map_voxel_m, options.max_map_points),
       keyframes_(mapping::KeyframeMapOptions{}, folder.path),
       closes_loops_(estimator.slam_map().has_value()),
       recorder_(folder.path, estimator),

@@ -32,7 +32,7 @@ void bind(config::Binder& b, SlamEstimatorOptions& o) {
     g.flag("use", o.gnss.use, "let fixes hold the map, where there are any");
     g.number("sigma_m", o.gnss.sigma_m, Range::positive(),
              "of a fix that does not tell its covariance");
-    g.number("least_sigma_m", o.gnss.least_sigma_m, Range::positive(),
+    g.number("min_sigma_m", o.gnss.min_sigma_m, Range::positive(),
              "smallest standard deviation of a fix that is used");
   });
   b.group("gravity", "up by the recording's first IMU", [&](config::Binder& g) {
@@ -155,7 +155,7 @@ void SlamEstimator::place(const sensors::GnssFix& fix, const geometry::Pose3& T_
   if (!plane_) plane_.emplace(place);
   Eigen::Matrix3d covariance = fix.covariance_enu.value_or(
       Eigen::Matrix3d(gnss_.sigma_m * gnss_.sigma_m * Eigen::Matrix3d::Identity()));
-  covariance.diagonal().array() += gnss_.least_sigma_m * gnss_.least_sigma_m;
+  covariance.diagonal().array() += gnss_.min_sigma_m * gnss_.min_sigma_m;
   if (!has_altitude) covariance(2, 2) += kUnknownAltitude_m * kUnknownAltitude_m;
   const geometry::Pose3 T_keyframe_lidar =
       slam_.chain().T_odom_lidar(slam_.keyframes().size() - 1).inverse() * T_odom_lidar;

@@ -19,7 +19,7 @@ namespace traverse::pipeline {
 struct SlamGnssOptions {
   bool use = true;     ///< fixes of the recording's first receiver, where it has one
   double sigma_m = 3;  ///< of a fix that does not tell its covariance
-  double least_sigma_m = 0.02;
+  double min_sigma_m = 0.02;
 };
 
 struct SlamGravityOptions {

@@ -11,9 +11,9 @@ void bind(config::Binder& b, GraphOptions& o) {
            "factor by which that bound shrinks a stage, from the largest residual on");
   b.integer("steps_a_stage", o.steps_a_stage, Range::between(1, 100),
             "Levenberg-Marquardt steps in a stage");
-  b.integer("most_iterations", o.most_iterations, Range::between(1, 1000),
+  b.integer("max_iterations", o.max_iterations, Range::between(1, 1000),
             "Levenberg-Marquardt steps of the last stage");
-  b.number("least_fix_spread", o.least_fix_spread, Range::between(1, 1e6),
+  b.number("min_fix_spread", o.min_fix_spread, Range::between(1, 1e6),
            "GNSS fixes orient the map when their spread is so many of their standard deviations");
   b.number("up_offset_deg", o.up_offset_deg, Range::non_negative(),
            "standard deviation of the error that all measured directions of up share");

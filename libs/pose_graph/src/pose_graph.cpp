@@ -174,7 +174,7 @@ void PoseGraph::georeference() {
     antennas_enu.push_back(fix.antenna_enu);
     sigmas.push_back(std::sqrt(fix.covariance.topLeftCorner<2, 2>().trace() / 2));
   }
-  const double spread = options_.least_fix_spread * statistics::element_at_share(sigmas, 0.5);
+  const double spread = options_.min_fix_spread * statistics::element_at_share(sigmas, 0.5);
   const auto T_enu_map = level_alignment(antennas_map, antennas_enu, up_map_, spread);
   if (!T_enu_map) return;
   for (geometry::Pose3& T_map_body : poses_) T_map_body = *T_enu_map * T_map_body;

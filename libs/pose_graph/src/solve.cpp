@@ -66,10 +66,10 @@ Result solve(const GraphParts& graph, Doubts doubts, const GraphOptions& options
   if (options.robust) graduate(problem, options, result);
   optimization::Solution solution;
   do {
-    solution = problem.finish(options.most_iterations);
+    solution = problem.finish(options.max_iterations);
     count(solution, result);
   } while (solution.is_usable && problem.take_in_or_leave_out() &&
-           result.iterations < 4 * options.most_iterations);
+           result.iterations < 4 * options.max_iterations);
   result.is_usable = solution.is_usable;
   result.converged = solution.converged;
   result.message = std::move(solution.message);

@@ -54,7 +54,7 @@ void Checkpoints::add(Checkpoint checkpoint) {
   if (known != by_frame_.end()) bytes_ -= known->second.bytes;
   by_frame_.insert_or_assign(frame, Kept{std::move(checkpoint), bytes});
   bytes_ += bytes;
-  while (by_frame_.size() > kMost || bytes_ > most_bytes_) {
+  while (by_frame_.size() > kMost || bytes_ > max_bytes_) {
     if (!drop_one(frame)) break;
   }
 }

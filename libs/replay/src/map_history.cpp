@@ -41,8 +41,8 @@ struct MapHistory::Voxels {
   tsl::robin_map<std::uint64_t, std::uint32_t, geometry::VoxelHash> blocks;  // key -> blocks_
 };
 
-MapHistory::MapHistory(double voxel_m, std::size_t most_points)
-    : voxel_m_(voxel_m), most_points_(most_points), voxels_(std::make_unique<Voxels>()) {}
+MapHistory::MapHistory(double voxel_m, std::size_t max_points)
+    : voxel_m_(voxel_m), max_points_(max_points), voxels_(std::make_unique<Voxels>()) {}
 MapHistory::MapHistory(MapHistory&&) noexcept = default;
 MapHistory& MapHistory::operator=(MapHistory&&) noexcept = default;
 MapHistory::~MapHistory() = default;
@@ -53,7 +53,7 @@ void MapHistory::add_frame(std::span<const Eigen::Vector3f> points_map,
     add(points_map[i], intensity.empty() ? 0.0F : intensity[i]);
   }
   points_at_frame_.push_back(points_.size());
-  while (points_.size() > most_points_) coarsen();
+  while (points_.size() > max_points_) coarsen();
 }
 
 void MapHistory::add(const Eigen::Vector3f& p_map, float intensity) {

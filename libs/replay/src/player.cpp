@@ -30,7 +30,7 @@ void give_way() { ::setpriority(PRIO_PROCESS, 0, kNiceness); }
 
 MapHistory empty_map(const Recording& recording, const PlayerOptions& options) {
   const double usual = recording.has_lidar() ? kVoxel : kPlanarVoxel;
-  return {options.map_voxel_m > 0 ? options.map_voxel_m : usual, options.most_map_points};
+  return {options.map_voxel_m > 0 ? options.map_voxel_m : usual, options.max_map_points};
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ MapHistory empty_map(const Recording& recording, const PlayerOptions& options) {
 Player::Player(Recording recording, const PlayerOptions& options)
     : recording_(std::move(recording)), options_(options), map_(empty_map(recording_, options_)) {
   begin(options_.preset, recording_.first_frame());
-  timeline_.limit(recording_.most_frames());
+  timeline_.limit(recording_.max_frames());
   estimating_ = std::thread([this] { estimate(); });
   indexing_ = std::thread([this] { build_index(); });
 }

@@ -36,7 +36,7 @@ Recording Recording::open(const fs::path& file_or_run, const dataset::OpenOption
     recording.run_ = Run{contents, run_facts(*contents)};
     const RunFacts& facts = recording.run_->facts;
     recording.path_ = moved_to.empty() ? facts.recording : moved_to;
-    recording.most_frames_ = facts.first_frame + facts.frames;
+    recording.max_frames_ = facts.first_frame + facts.frames;
     add_statements(facts.command, recording.options_);
     if (!fs::exists(recording.path_)) {
       throw files::InputError(folder.record(), files::Place::key("recording.path"),

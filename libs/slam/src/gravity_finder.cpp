@@ -86,11 +86,11 @@ void bind(config::Binder& b, GravityOptions& o) {
            "of odometry's positions in it, each frame for itself");
   b.number("acceleration_share", o.acceleration_share, Range::non_negative(),
            "of the vehicle's acceleration what is believed to remain");
-  b.number("least_sigma_deg", o.least_sigma_deg, Range::positive(),
+  b.number("min_sigma_deg", o.min_sigma_deg, Range::positive(),
            "smallest standard deviation of a direction that is used");
-  b.number("most_gap_s", o.most_gap_s, Range::positive(),
+  b.number("max_gap_s", o.max_gap_s, Range::positive(),
            "between samples; slower ones do not see how a vehicle shakes");
-  b.number("most_off_m_s2", o.most_off_m_s2, Range::positive(),
+  b.number("max_off_m_s2", o.max_off_m_s2, Range::positive(),
            "of the length found to that of gravity");
 }
 
@@ -137,11 +137,11 @@ bool GravityFinder::samples_cover_window() const {
   geometry::Stamp covered = window_.front().stamp;
   for (const sensors::ImuSample& sample : samples_) {
     if (sample.stamp <= covered) continue;
-    if (geometry::seconds_between(covered, sample.stamp) > options_.most_gap_s) return false;
+    if (geometry::seconds_between(covered, sample.stamp) > options_.max_gap_s) return false;
     covered = sample.stamp;
     if (covered >= window_.back().stamp) return true;
   }
-  return geometry::seconds_between(covered, window_.back().stamp) <= options_.most_gap_s;
+  return geometry::seconds_between(covered, window_.back().stamp) <= options_.max_gap_s;
 }
 
 std::optional<MeasuredUp> GravityFinder::up_in_window() {
@@ -179,12 +179,12 @@ std::optional<MeasuredUp> GravityFinder::up_in_window() {
   const Eigen::Vector3d gravity = force.mean() - acceleration;
   const double sigma = std::hypot(force.sigma(), options_.odometry_sigma_m * weights.norm(),
                                   options_.acceleration_share * acceleration.norm());
-  if (std::abs(gravity.norm() - kGravity) > options_.most_off_m_s2 + 3 * sigma) {
+  if (std::abs(gravity.norm() - kGravity) > options_.max_off_m_s2 + 3 * sigma) {
     ++turned_away_;
     return std::nullopt;
   }
   ++found_;
-  const double least = options_.least_sigma_deg * std::numbers::pi / 180;
+  const double least = options_.min_sigma_deg * std::numbers::pi / 180;
   return MeasuredUp{gravity.normalized(), std::max(least, sigma / kGravity)};
 }
 

@@ -24,14 +24,14 @@ std::size_t bytes_of(const Keyframe& keyframe) {
          bytes_of(features.planar) + bytes_of(features.edges) + features.surface_is_planar.size();
 }
 
-KeyframeStore::KeyframeStore(std::size_t most_bytes)
-    : most_bytes_(most_bytes), folder_(std::filesystem::temp_directory_path()) {}
+KeyframeStore::KeyframeStore(std::size_t max_bytes)
+    : max_bytes_(max_bytes), folder_(std::filesystem::temp_directory_path()) {}
 
 void KeyframeStore::add(Keyframe keyframe) {
   if (keyframe.id != size()) throw std::invalid_argument("keyframes are stored in their order");
   resident_bytes_ += bytes_of(keyframe);
   places_.push_back({std::make_shared<const Keyframe>(std::move(keyframe)), 0});
-  while (resident_bytes_ > most_bytes_ && first_resident_ + 1 < size()) {
+  while (resident_bytes_ > max_bytes_ && first_resident_ + 1 < size()) {
     if (file_ == nullptr) file_ = std::make_shared<SpillFile>(folder_);
     Place& oldest = places_[first_resident_++];
     oldest.offset = file_->append(*oldest.keyframe);

@@ -38,10 +38,10 @@ void bind(config::Binder& b, LocalizerOptions& o) {
            "around each of them, and around a given start");
   b.number("search_half_turn_deg", o.search_half_turn_deg, Range::between(0, 180),
            "to either side of a given start");
-  b.number("least_in_common", o.checks.least_in_common, Range::between(0, 1),
+  b.number("min_in_common", o.checks.min_in_common, Range::between(0, 1),
            "matches of a scan, as a share of what the map's own keyframe has there");
-  b.number("most_residual_m", o.checks.most_residual_m, Range::positive(), "rms of the matches");
-  b.number("most_rival", o.most_rival, Range::between(0, 1),
+  b.number("max_residual_m", o.checks.max_residual_m, Range::positive(), "rms of the matches");
+  b.number("max_rival", o.max_rival, Range::between(0, 1),
            "matches of the next best place, as a share of the best one's");
   b.number("agreement_m", o.agreement_m, Range::positive(),
            "two scans tell the same place up to this");
@@ -142,7 +142,7 @@ Localizer::Places Localizer::contenders(const MapPlaces::Fit& best,
                                         const Keyframe& scan) const {
   const geometry::Pose3 T_lidar_odom = scan.T_odom_lidar.inverse();
   Places places{best.T_map_lidar * T_lidar_odom};
-  const double rival = search_.most_rival * static_cast<double>(best.found.support);
+  const double rival = search_.max_rival * static_cast<double>(best.found.support);
   for (const MapPlaces::Fit& other : fits) {
     if (static_cast<double>(other.found.support) < rival) continue;
     if (agree(other.T_map_lidar, best.T_map_lidar, search_)) continue;

@@ -15,14 +15,14 @@ constexpr double kRounding_m = 0.01;  // of positions as floats, far from the or
 
 void bind(config::Binder& b, CandidateOptions& o) {
   using config::Range;
-  b.number("least_way_m", o.least_way_m, Range::positive(),
+  b.number("min_way_m", o.min_way_m, Range::positive(),
            "driven since; nearer keyframes are the present surroundings");
   b.number("reach_m", o.reach_m, Range::positive(), "keyframes farther apart make no loop");
   b.number("sigmas", o.sigmas, Range::non_negative(),
            "of the predicted position that reach_m grows by");
   b.integer("ring_keys", o.ring_keys, Range::between(1, 1000),
             "nearest ring keys whose Scan Contexts are compared");
-  b.number("most_descriptor_distance", o.most_descriptor_distance, Range::between(0, 1),
+  b.number("max_descriptor_distance", o.max_descriptor_distance, Range::between(0, 1),
            "of two Scan Contexts that look like one place");
   b.group("context", "the Scan Context of a keyframe",
           [&](config::Binder& g) { bind(g, o.context); });
@@ -41,7 +41,7 @@ void LoopCandidates::add(ScanContext context, double way_m, const Eigen::Vector3
 }
 
 void LoopCandidates::let_find(double way_m) {
-  while (findable() < contexts_.size() && way_m_[findable()] + options_.least_way_m <= way_m) {
+  while (findable() < contexts_.size() && way_m_[findable()] + options_.min_way_m <= way_m) {
     ring_keys_.add(contexts_[findable()].ring_key());
     p_indexed_.push_back(p_map_[findable()]);
     positions_.add(as_place(p_indexed_.back()));
@@ -72,7 +72,7 @@ std::vector<Candidate> LoopCandidates::by_appearance(const ScanContext& context)
   for (const std::size_t keyframe :
        ring_keys_.nearest(context.ring_key(), static_cast<std::size_t>(options_.ring_keys))) {
     const auto match = ScanContext::compare(contexts_[keyframe], context);
-    if (match.distance > options_.most_descriptor_distance) continue;
+    if (match.distance > options_.max_descriptor_distance) continue;
     candidates.push_back({keyframe, match.distance, match.turn_rad});
   }
   std::stable_sort(candidates.begin(), candidates.end(),

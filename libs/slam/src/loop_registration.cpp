@@ -52,7 +52,7 @@ void bind(config::Binder& b, LoopRegistrationOptions& o) {
   b.number("start_spacing_m", o.start_spacing_m, Range::positive(),
            "between the starts of the search");
   b.number("start_spacing_deg", o.start_spacing_deg, Range::positive(), "between their headings");
-  b.integer("most_starts", o.most_starts, Range::between(1, 1e6), "of one registration");
+  b.integer("max_starts", o.max_starts, Range::between(1, 1e6), "of one registration");
   b.number("on_surface_m", o.on_surface_m, Range::positive(),
            "a point so near a plane or line lies on it");
 }
@@ -68,8 +68,8 @@ std::vector<geometry::Pose3> starts_around(const geometry::Pose3& guess, const S
     const double side = steps_to(region.radius_m, spacing_m);
     return 3 * side * side;
   };
-  while (headings() > options.most_starts) spacing_rad *= kCoarser;
-  while (positions() * headings() > options.most_starts) spacing_m *= kCoarser;
+  while (headings() > options.max_starts) spacing_rad *= kCoarser;
+  while (positions() * headings() > options.max_starts) spacing_m *= kCoarser;
 
   struct Start {
     double distance;

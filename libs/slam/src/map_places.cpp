@@ -48,8 +48,8 @@ PlaceVerdict judge(const MapPlaces::Fit& fit, const PlaceChecks& checks) {
   const lidar::RegistrationHealth& health = fit.found.health;
   if (!health.registered) return PlaceVerdict::kNotRegistered;
   if (health.observability.degenerate > 0) return PlaceVerdict::kDegenerate;
-  if (fit.in_common < checks.least_in_common) return PlaceVerdict::kLittleInCommon;
-  if (health.residual_rms_m > checks.most_residual_m) return PlaceVerdict::kResidual;
+  if (fit.in_common < checks.min_in_common) return PlaceVerdict::kLittleInCommon;
+  if (health.residual_rms_m > checks.max_residual_m) return PlaceVerdict::kResidual;
   return PlaceVerdict::kFits;
 }
 

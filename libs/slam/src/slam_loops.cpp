@@ -143,9 +143,9 @@ Loop Slam::verify(const Candidate& candidate, LoopSource source, const Keyframe&
   loop.weakest_eigenvalue = found.health.observability.eigenvalues[0];
   const LoopChecks& checks = options_.loops;
   geometry::Matrix6 covariance = checks.inflation * registration_covariance(found.health);
-  const double turn = checks.least_sigma_deg * geometry::kDegree;
+  const double turn = checks.min_sigma_deg * geometry::kDegree;
   covariance.diagonal().head<3>().array() += turn * turn;
-  covariance.diagonal().tail<3>().array() += checks.least_sigma_m * checks.least_sigma_m;
+  covariance.diagonal().tail<3>().array() += checks.min_sigma_m * checks.min_sigma_m;
   const geometry::Twist off = geometry::log_se3(guess.inverse() * found.T_centre_lidar);
   const geometry::Matrix6 expected = prediction.covariance + covariance;
   loop.odometry_chi2 = off.dot(expected.ldlt().solve(off));
@@ -159,9 +159,9 @@ LoopVerdict Slam::judge(const Loop& loop, const LoopRegistration& found, bool de
   const LoopChecks& checks = options_.loops;
   if (!found.health.registered) return LoopVerdict::kNotRegistered;
   if (degenerate) return LoopVerdict::kDegenerate;
-  if (loop.overlap < checks.least_overlap * loop.submap_overlap) return LoopVerdict::kLittleOverlap;
-  if (loop.residual_rms_m > checks.most_residual_m) return LoopVerdict::kResidual;
-  if (loop.odometry_chi2 > checks.most_chi2) return LoopVerdict::kOdometry;
+  if (loop.overlap < checks.min_overlap * loop.submap_overlap) return LoopVerdict::kLittleOverlap;
+  if (loop.residual_rms_m > checks.max_residual_m) return LoopVerdict::kResidual;
+  if (loop.odometry_chi2 > checks.max_chi2) return LoopVerdict::kOdometry;
   return LoopVerdict::kAccepted;
 }
 

@@ -5,10 +5,10 @@ namespace traverse::slam {
 void bind(config::Binder& b, LoopChecks& o) {
   using config::Range;
   b.number(
-      "least_overlap", o.least_overlap, Range::between(0, 1),
+      "min_overlap", o.min_overlap, Range::between(0, 1),
       "share of the keyframe's points on the submap's surfaces, to that of the submap's centre");
-  b.number("most_residual_m", o.most_residual_m, Range::positive(), "rms of the matches");
-  b.number("most_chi2", o.most_chi2, Range::positive(),
+  b.number("max_residual_m", o.max_residual_m, Range::positive(), "rms of the matches");
+  b.number("max_chi2", o.max_chi2, Range::positive(),
            "of the difference to odometry, 6 degrees of freedom");
   b.number("odometry_share", o.odometry_share, Range::non_negative(),
            "of the way, odometry's systematic part of that difference");
@@ -21,9 +21,9 @@ void bind(config::Binder& b, LoopChecks& o) {
   b.number("agreement_deg", o.agreement_deg, Range::positive(), "and this");
   b.number("inflation", o.inflation, Range::positive(),
            "of the covariance from the solver's information");
-  b.number("least_sigma_m", o.least_sigma_m, Range::positive(),
+  b.number("min_sigma_m", o.min_sigma_m, Range::positive(),
            "smallest standard deviation of a loop that is used");
-  b.number("least_sigma_deg", o.least_sigma_deg, Range::positive(), "the same of its rotation");
+  b.number("min_sigma_deg", o.min_sigma_deg, Range::positive(), "the same of its rotation");
 }
 
 void bind(config::Binder& b, SlamOptions& o) {

@@ -79,9 +79,9 @@ void bind(config::Binder& b, AlignmentOptions& o) {
   b.number("converged_m", o.converged_m, Range::non_negative(), "a smaller step is the last one");
   b.number("converged_deg", o.converged_deg, Range::non_negative(),
            "a smaller turn is the last one");
-  b.integer("least_matches", o.least_matches, Range::between(6, 1e6),
+  b.integer("min_matches", o.min_matches, Range::between(6, 1e6),
             "with fewer matches the prediction stands");
-  b.number("least_eigenvalue", o.least_eigenvalue, Range::between(0, 1),
+  b.number("min_eigenvalue", o.min_eigenvalue, Range::between(0, 1),
            "directions below are degenerate and keep their prediction");
   bind(b, o.matches);
   bind(b, o.objective);
@@ -114,7 +114,7 @@ Alignment align(const SweepSample& sample, const VoxelMap& map, const MotionMode
     health.line_matches = matches.line_1.size();
     health.plane_matches = matches.planes.size();
     result.standing_planes = matches.standing_planes;
-    if (matches.size() < static_cast<std::size_t>(options.least_matches)) {
+    if (matches.size() < static_cast<std::size_t>(options.min_matches)) {
       health.registered = false;
       health.observability.degenerate = 6;
       result.T_map_lidar = guess_T_map_lidar;
@@ -125,9 +125,8 @@ Alignment align(const SweepSample& sample, const VoxelMap& map, const MotionMode
     const auto count = static_cast<double>(matches.size());
     health.residual_rms_m = std::sqrt(normal.squared_m / count);
     health.inlier_share = normal.inliers / count;
-    health.observability =
-        lidar::observability(information(normal, result.T_map_lidar.rotation, scale_m), scale_m,
-                             options.least_eigenvalue);
+    health.observability = lidar::observability(
+        information(normal, result.T_map_lidar.rotation, scale_m), scale_m, options.min_eigenvalue);
 
     const Solved solved = solve(cost, result.T_map_lidar, options.iterations);
     health.iterations += solved.iterations;

@@ -5,13 +5,13 @@ namespace traverse::voxel_map {
 void bind(config::Binder& b, LineMapOptions& o) {
   using config::Range;
   b.number("cell_m", o.cell_m, Range::between(0.3, 5), "edge of a cell");
-  b.integer("least_points", o.least_points, Range::between(3, 1000), "a cell needs to have a line");
-  b.integer("least_frames", o.least_frames, Range::between(1, 100), "in which a line was seen");
+  b.integer("min_points", o.min_points, Range::between(3, 1000), "a cell needs to have a line");
+  b.integer("min_frames", o.min_frames, Range::between(1, 100), "in which a line was seen");
   b.number("refit_growth", o.refit_growth, Range::between(1, 10),
            "a line is fitted again when its points have grown by this factor");
   b.number("slenderness", o.fit.slenderness, Range::between(0, 1),
            "middle eigenvalue at most this times the largest");
-  b.number("least_length_m", o.fit.least_length_m, Range::non_negative(),
+  b.number("min_length_m", o.fit.min_length_m, Range::non_negative(),
            "standard deviation along a line at least");
 }
 
@@ -48,10 +48,10 @@ std::uint32_t LineMap::find_or_add(std::int32_t x, std::int32_t y, std::int32_t 
 void LineMap::refit(std::uint32_t index) {
   constexpr float kMostPoints = 4096;
   ColdCell& cell = cold_[index];
-  const auto least = static_cast<float>(options_.least_points);
+  const auto least = static_cast<float>(options_.min_points);
   const auto growth = static_cast<float>(options_.refit_growth);
   if (cell.moments.n < least || cell.moments.n < growth * cell.fitted_n ||
-      cell.frames < options_.least_frames) {
+      cell.frames < options_.min_frames) {
     return;
   }
   cell.fitted_n = cell.moments.n;

@@ -52,7 +52,7 @@ std::optional<FittedPlane> fit_plane(const Moments& s, const PlaneFitOptions& op
   const double product = minors - l0 * sum;
   const double l1 = 0.5 * (sum - std::sqrt(std::max(0.0, sum * sum - 4 * product)));
   const double thickness = options.thickness_m;
-  const double width = options.least_width_m;
+  const double width = options.min_width_m;
   if (!(l0 < options.flatness * l1 && l0 < thickness * thickness && l1 > width * width)) {
     return std::nullopt;
   }
@@ -76,7 +76,7 @@ std::optional<FittedLine> fit_line(const Moments& moments, const LineFitOptions&
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(moments.covariance());
   const Eigen::Vector3d& l = solver.eigenvalues();
-  const double length = options.least_length_m;
+  const double length = options.min_length_m;
   if (!(l[1] < options.slenderness * l[2] && l[2] > length * length)) return std::nullopt;
   const Eigen::Vector3d direction = solver.eigenvectors().col(2).normalized();
   const Eigen::Vector3d e1 = direction.unitOrthogonal();

@@ -35,15 +35,14 @@ void bind(config::Binder& b, PlaneMapOptions& o) {
   // Cell numbers wrap after 2048 cells; a cell of 0.3 m and the radius below 150 m stay within.
   b.number("cell_m", o.cell_m, Range::between(0.3, 5),
            "edge of a cell; its parent is 3 times as wide");
-  b.integer("least_points", o.least_points, Range::between(4, 1000),
-            "a cell needs to have a plane");
+  b.integer("min_points", o.min_points, Range::between(4, 1000), "a cell needs to have a plane");
   b.number("refit_growth", o.refit_growth, Range::between(1, 10),
            "a plane is fitted again when its points have grown by this factor");
   b.number("flatness", o.fit.flatness, Range::between(0, 1),
            "smallest eigenvalue at most this times the middle one");
   b.number("thickness_m", o.fit.thickness_m, Range::positive(),
            "standard deviation of the points across a plane at most");
-  b.number("least_width_m", o.fit.least_width_m, Range::non_negative(),
+  b.number("min_width_m", o.fit.min_width_m, Range::non_negative(),
            "standard deviation along the shorter side at least");
 }
 
@@ -152,12 +151,12 @@ void PlaneMap::insert_runs(Shard& shard, const std::vector<Run>& runs) const {
 
 void PlaneMap::refit(Level& level, std::uint32_t index, double cell_m) const {
   ColdCell& cell = level.cold[index];
-  const auto least = static_cast<float>(options_.least_points);
+  const auto least = static_cast<float>(options_.min_points);
   const auto growth = static_cast<float>(options_.refit_growth);
   if (cell.moments.n < least || cell.moments.n < growth * cell.fitted_n) return;
   cell.fitted_n = cell.moments.n;
   PlaneFitOptions fit = options_.fit;
-  fit.least_width_m *= cell_m / options_.cell_m;
+  fit.min_width_m *= cell_m / options_.cell_m;
   PlaneCell& plane = level.planes[index];
   const auto fitted = fit_plane(cell.moments, fit);
   plane.is_plane = fitted ? 1 : 0;

@@ -19,9 +19,9 @@ inline std::int32_t floor_to_int(float value) {
 /// A set of cells, open addressing with linear probing.
 class PointHash {
  public:
-  /// \param most_points it will be asked to hold
-  explicit PointHash(std::size_t most_points)
-      : bits_(static_cast<unsigned>(std::bit_width(2 * most_points + 15))),
+  /// \param max_points it will be asked to hold
+  explicit PointHash(std::size_t max_points)
+      : bits_(static_cast<unsigned>(std::bit_width(2 * max_points + 15))),
         slots_(std::size_t{1} << bits_, kEmpty) {}
 
   static std::uint32_t key(float x, float y, float z) {

@@ -179,7 +179,7 @@ void bind(config::Binder& b, ObjectiveOptions& o) {
   using config::Range;
   b.number("kernel", o.kernel, Range::positive(),
            "width of the Geman-McClure kernel in robust standard deviations");
-  b.number("least_scale", o.least_scale, Range::positive(),
+  b.number("min_scale", o.min_scale, Range::positive(),
            "the robust standard deviation is not taken smaller");
   b.number("line_weight", o.line_weight, Range::non_negative(), "of a line match; a plane's is 1");
 }
@@ -193,7 +193,7 @@ NormalEquations evaluate(const ScanMatches& matches, const MotionModel& motion,
                          const geometry::Pose3& T_map_lidar, const ObjectiveOptions& options,
                          parallel::Workers& workers) {
   const FloatPose pose(T_map_lidar, matches.origin_map, motion);
-  const double k = options.kernel * std::max(matches.scale, options.least_scale);
+  const double k = options.kernel * std::max(matches.scale, options.min_scale);
   const auto k2 = static_cast<float>(k * k);
   const auto line_share = static_cast<float>(options.line_weight);
 

@@ -26,7 +26,7 @@ class Follower {
         deskew_(deskew),
         map_options_(map),
         alignment_(alignment) {
-    map_options_.lines.least_frames = 1;  // there are not three frames yet
+    map_options_.lines.min_frames = 1;  // there are not three frames yet
   }
 
   Hypothesis follow(const geometry::Twist& start, std::size_t scans,

@@ -93,15 +93,15 @@ SweepRows::SweepRows(const sensors::LidarScan& scan, const sensors::LidarProfile
   dropped_.out_of_range = counts.near + counts.far;
   dropped_.not_finite = scan.size() - counts.origin - counts.near - counts.far - counts.usable;
 
-  const std::size_t most_rings =
+  const std::size_t max_rings =
       profile.rings > 0 ? static_cast<std::size_t>(profile.rings) : std::size_t{kLeftOut};
   const bool missing_returns = dropped_.at_origin + dropped_.not_finite > 0;
   if (profile.ring_source == sensors::RingSource::kStorageOrder && !missing_returns) {
     borrowed_ = true;
     row_begin_ = ring_begins(scan);
-    if (count() > most_rings) {
-      dropped_.beyond_profile_rings = scan.size() - row_begin_[most_rings];
-      row_begin_.resize(most_rings + 1);
+    if (count() > max_rings) {
+      dropped_.beyond_profile_rings = scan.size() - row_begin_[max_rings];
+      row_begin_.resize(max_rings + 1);
     }
     return;
   }
@@ -116,8 +116,8 @@ SweepRows::SweepRows(const sensors::LidarScan& scan, const sensors::LidarProfile
   std::size_t rings = 0;
   for (std::size_t i = 0; i < scan.size(); ++i) {
     const bool returned = range_[i] > 0 && range_[i] <= std::numeric_limits<float>::max();
-    if (returned && ring[i] >= most_rings) ++dropped_.beyond_profile_rings;
-    if (!returned || ring[i] >= most_rings) ring[i] = kLeftOut;
+    if (returned && ring[i] >= max_rings) ++dropped_.beyond_profile_rings;
+    if (!returned || ring[i] >= max_rings) ring[i] = kLeftOut;
     if (ring[i] != kLeftOut) rings = std::max<std::size_t>(rings, ring[i] + 1U);
   }
   sort_rows(ring, rings);

@@ -121,7 +121,7 @@ lidar::Frame VoxelMapOdometry::advance(const SweepSample& sample, double start_m
   }
   frame.velocity = velocity_;
   // A pose that is only predicted does not shape the map, unless there is no map yet.
-  const auto least = static_cast<std::size_t>(options_.alignment.least_matches);
+  const auto least = static_cast<std::size_t>(options_.alignment.min_matches);
   if (frame.health.registered || frames_ == 0 || map_.size() < least) {
     lidar::Stopwatch watch;
     map_.insert(sample, frame.T_map_lidar, deskew ? velocity_ : geometry::Twist::Zero(), *workers_);

@@ -12,12 +12,12 @@ constexpr double kVerticalSpacing = 2.8;
 constexpr double kHorizontalSpacing = 2.2;
 constexpr int kMostTicks = 12;
 
-int most_ticks_up(const Canvas& canvas, double height) {
+int max_ticks_up(const Canvas& canvas, double height) {
   return std::clamp(static_cast<int>(height / (kVerticalSpacing * canvas.sizes().tick)), 2,
                     kMostTicks);
 }
 
-int most_ticks_across(const Canvas& canvas, const Axis& x, double width) {
+int max_ticks_across(const Canvas& canvas, const Axis& x, double width) {
   const Notation notation = Notation::for_range(x.range);
   double widest = 2 * canvas.sizes().tick;
   for (const std::string& label : tick_labels(nice_ticks(x.range, kMostTicks), notation)) {
@@ -108,7 +108,7 @@ double x_label_height(const Canvas& canvas) {
 double room_for_y_labels(const Canvas& canvas, const Axis& y, double height) {
   Axis axis = y;
   axis.range = usable(y.range);
-  const Ticks ticks = ticks_of(axis, most_ticks_up(canvas, height));
+  const Ticks ticks = ticks_of(axis, max_ticks_up(canvas, height));
   return widest_label(canvas, ticks, Notation::for_range(axis.range)) + canvas.sizes().gap;
 }
 
@@ -124,8 +124,8 @@ PlotArea lay_out(const Canvas& canvas, const Rect& outer, const Axis& x, const A
   area.rect = inner_rect(canvas, outer, all);
   area.x_notation = Notation::for_range(area.x.range);
   area.y_notation = Notation::for_range(area.y.range);
-  area.x_ticks = ticks_of(area.x, most_ticks_across(canvas, area.x, area.rect.width()));
-  area.y_ticks = ticks_of(area.y, most_ticks_up(canvas, area.rect.height()));
+  area.x_ticks = ticks_of(area.x, max_ticks_across(canvas, area.x, area.rect.width()));
+  area.y_ticks = ticks_of(area.y, max_ticks_up(canvas, area.rect.height()));
   return area;
 }
 
@@ -146,8 +146,8 @@ PlotArea lay_out_equal(const Canvas& canvas, const Rect& outer, const Axis& x, c
     area.x_notation = Notation::for_range(area.x.range);
     area.y_notation = Notation::for_range(area.y.range);
     const Ticks x_ticks =
-        nice_ticks(area.x.range, most_ticks_across(canvas, area.x, area.rect.width()));
-    const Ticks y_ticks = nice_ticks(area.y.range, most_ticks_up(canvas, area.rect.height()));
+        nice_ticks(area.x.range, max_ticks_across(canvas, area.x, area.rect.width()));
+    const Ticks y_ticks = nice_ticks(area.y.range, max_ticks_up(canvas, area.rect.height()));
     // The same for both, so that the grid's cells are squares; not where a narrow axis would
     // be left without.
     const double step = std::max(x_ticks.step, y_ticks.step);

@@ -38,8 +38,8 @@ Range Range::joined(const Range& other) const {
 
 Range Range::padded(double share) const { return {low - share * span(), high + share * span()}; }
 
-Range Range::at_least(double least_span) const {
-  const double missing = std::max(0.0, least_span - span());
+Range Range::at_least(double min_span) const {
+  const double missing = std::max(0.0, min_span - span());
   return {low - missing / 2, high + missing / 2};
 }
 

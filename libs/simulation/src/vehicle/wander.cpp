@@ -15,8 +15,8 @@ constexpr double kTurn = 2 * std::numbers::pi;
 
 }  // namespace
 
-Wander::Wander(double length_m, double most_m, std::uint64_t seed)
-    : amplitude_m_(most_m / static_cast<double>(waves_.size())) {
+Wander::Wander(double length_m, double max_m, std::uint64_t seed)
+    : amplitude_m_(max_m / static_cast<double>(waves_.size())) {
   std::mt19937_64 generator(seed);
   std::uniform_real_distribution<double> share(0, 1);
   for (Wave& wave : waves_) {

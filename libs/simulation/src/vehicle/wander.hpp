@@ -9,8 +9,8 @@ namespace traverse::simulation {
 /// length, so that a closed route has no step where its laps meet.
 class Wander {
  public:
-  /// \param most_m the farthest to either side
-  Wander(double length_m, double most_m, std::uint64_t seed);
+  /// \param max_m the farthest to either side
+  Wander(double length_m, double max_m, std::uint64_t seed);
 
   /// Metres to the left at `s` metres along.
   double left_m(double s) const;

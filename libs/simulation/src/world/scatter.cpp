@@ -7,10 +7,10 @@
 namespace traverse::simulation {
 
 bool plant(Site& site, const Assortment& shapes, const Eigen::Vector2d& p, double footprint,
-           double height, double least_scale, double most_scale) {
+           double height, double min_scale, double max_scale) {
   if (!site.plan.is_free(p, 0, {footprint, footprint})) return false;
   site.plan.take(p, 0, {footprint, footprint});
-  const double scale = site.random.uniform(least_scale, most_scale);
+  const double scale = site.random.uniform(min_scale, max_scale);
   const double yaw = site.random.uniform(0, 2 * std::numbers::pi);
   site.mesh.add(shapes.pick(site.random), upright(site.on_ground(p, height), yaw), scale);
   return true;

@@ -23,7 +23,7 @@ class Assortment {
 /// Puts a copy at `p` if the ground is free over `footprint` (a square's side), and takes it.
 /// `height`: of the ground there, above the terrain.
 bool plant(Site& site, const Assortment& shapes, const Eigen::Vector2d& p, double footprint,
-           double height, double least_scale = 0.8, double most_scale = 1.25);
+           double height, double min_scale = 0.8, double max_scale = 1.25);
 
 /// Trees, conifers and bushes as a place needs them.
 struct Greenery {

@@ -66,7 +66,7 @@ struct Budget {
 struct SlurmOptions {
   std::vector<std::string> sbatch;  ///< "--partition=main"
   int runs_per_task = 0;            ///< 0: as few as the size of the largest array allows
-  int most_at_once = 0;             ///< tasks; 0: as many as the scheduler likes
+  int max_at_once = 0;              ///< tasks; 0: as many as the scheduler likes
 };
 
 /// Recordings x pipelines x grid x repeats, and how to run them; docs/batch.md describes the file.
@@ -84,6 +84,7 @@ struct Plan {
   config::Origin threads_origin;  ///< where limits.threads stands, if it does
   config::Origin memory_origin;
   SlurmOptions slurm;
+  std::vector<std::string> notes;  ///< for the user: keys that were given by former names
 };
 
 /// Says what is wrong with `traverse simulate WORDS`, or nothing if it would begin.

@@ -80,7 +80,9 @@ class Document {
 /// value of the wrong type or out of range and for a key that nothing binds (with the nearest
 /// known key as a hint).
 /// \param others top-level keys that are no settings and are read by child() or items()
-void read(const Document& document, const Bind& bind,
-          std::span<const std::string_view> others = {});
+/// \returns a note for each key that was given by a former name, for the user: "presets/mine.yaml,
+/// line 3: 'least_matches' is called 'min_matches' now"
+std::vector<std::string> read(const Document& document, const Bind& bind,
+                              std::span<const std::string_view> others = {});
 
 }  // namespace traverse::config

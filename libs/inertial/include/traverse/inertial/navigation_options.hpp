@@ -36,7 +36,7 @@ struct GnssOptions {
   double latency_sigma_s = 1e-4;  ///< standard deviation; what is left of it is estimated
   double latency_walk = 1e-5;     ///< s a sqrt(s)
   bool gate = true;               ///< leave out what chi-square finds too unlikely (0.1 %)
-  int most_rejected = 20;         ///< in a row; the next is taken, whatever it says
+  int max_rejected = 20;          ///< in a row; the next is taken, whatever it says
   double huber = 3;               ///< standard deviations; 0 for plain least squares
 };
 void bind(config::Binder& binder, GnssOptions& options);

@@ -29,8 +29,8 @@ struct Observability {
 };
 
 /// From an information matrix in scaled axes that is already divided by its matches.
-/// \param least_eigenvalue directions with a smaller eigenvalue are degenerate
+/// \param min_eigenvalue directions with a smaller eigenvalue are degenerate
 Observability observability(const Matrix6& information, double rotation_scale_m,
-                            double least_eigenvalue);
+                            double min_eigenvalue);
 
 }  // namespace traverse::lidar

@@ -27,10 +27,10 @@ struct SolverOptions {
   PlaneForm plane_form = PlaneForm::kSigned;
   optimization::Derivative derivative = optimization::Derivative::kAnalytic;
   optimization::Perturbation perturbation = optimization::Perturbation::kRight;
-  int iterations = 4;              ///< of Levenberg-Marquardt in one solve
-  double huber_m = 0.1;            ///< residuals beyond count linearly
-  int least_matches = 20;          ///< with fewer, nothing is solved
-  double least_eigenvalue = 0.02;  ///< smaller: the direction is degenerate (Observability)
+  int iterations = 4;            ///< of Levenberg-Marquardt in one solve
+  double huber_m = 0.1;          ///< residuals beyond count linearly
+  int min_matches = 20;          ///< with fewer, nothing is solved
+  double min_eigenvalue = 0.02;  ///< smaller: the direction is degenerate (Observability)
 };
 void bind(config::Binder& binder, SolverOptions& options);
 

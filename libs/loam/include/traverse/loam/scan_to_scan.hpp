@@ -19,18 +19,18 @@ enum class SweepMotion {
 
 struct ScanToScanOptions {
   SweepMotion sweep_motion = SweepMotion::kPerPoint;
-  int steps = 2;                     ///< associations, with a solve each
-  double search_radius_m = 5;        ///< a partner in the last scan is nearer than this
-  int adjacent_lines = 2;            ///< how many lines away an adjacent scan line may be
-  double planar_voxel_m = 0.2;       ///< one planar point of each line a cube of the last scan
-  double least_baseline_m = 0.3;     ///< between two points of one scan line that make a plane
-  double least_triangle_sine = 0.3;  ///< of the angle between the sides of a plane's triangle
+  int steps = 2;                   ///< associations, with a solve each
+  double search_radius_m = 5;      ///< a partner in the last scan is nearer than this
+  int adjacent_lines = 2;          ///< how many lines away an adjacent scan line may be
+  double planar_voxel_m = 0.2;     ///< one planar point of each line a cube of the last scan
+  double min_baseline_m = 0.3;     ///< between two points of one scan line that make a plane
+  double min_triangle_sine = 0.3;  ///< of the angle between the sides of a plane's triangle
 
   // In place of the solver's. Two or three single points often make a wrong line or plane, whose
   // pull must end at the range noise; and where there is nothing to see they still make some that
   // seem to stop every motion: a bare tunnel shows an eigenvalue of 0.03 to 0.06 along its axis.
   double huber_m = 0.02;
-  double least_eigenvalue = 0.08;
+  double min_eigenvalue = 0.08;
 };
 void bind(config::Binder& binder, ScanToScanOptions& options);
 

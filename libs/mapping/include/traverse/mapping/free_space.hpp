@@ -14,10 +14,10 @@ namespace traverse::mapping {
 
 struct FreeSpaceOptions {
   double voxel_m = 0.2;       ///< what is judged: the mean of the points in a cube
-  double most_range_m = 40;   ///< rays that end farther away from a cube's own range do not judge
+  double max_range_m = 40;    ///< rays that end farther away from a cube's own range do not judge
   double ray_radius_m = 0.1;  ///< a ray that passes so near sees through, or hits
-  double least_gap_m = 0.5;   ///< and ends so far behind
-  int least_votes = 3;        ///< of keyframes that see through
+  double min_gap_m = 0.5;     ///< and ends so far behind
+  int min_votes = 3;          ///< of keyframes that see through
   double majority = 2;        ///< they are so many times those that hit
 };
 void bind(config::Binder& binder, FreeSpaceOptions& options);

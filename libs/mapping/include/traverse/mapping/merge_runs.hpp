@@ -17,10 +17,10 @@ struct MergeOptions {
   int candidates = 3;   ///< that look most alike, for each of them
   double search_m = 3;  ///< around a candidate, from where a registration starts
   double search_deg = 6;
-  double least_overlap = 0.6;    ///< share of a keyframe's flat points on the other run's surfaces
-  double most_residual_m = 0.1;  ///< rms of the matches
-  int least_agreeing = 3;        ///< registrations that place a run alike
-  double agreement_m = 1;        ///< up to this; runs drift
+  double min_overlap = 0.6;     ///< share of a keyframe's flat points on the other run's surfaces
+  double max_residual_m = 0.1;  ///< rms of the matches
+  int min_agreeing = 3;         ///< registrations that place a run alike
+  double agreement_m = 1;       ///< up to this; runs drift
   double agreement_deg = 3;
   double reach_m = 8;        ///< keyframes of two runs so near are registered
   double correction_m = 2;   ///< farther from where the run was placed they are not believed

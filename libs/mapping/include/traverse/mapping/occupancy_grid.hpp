@@ -14,9 +14,9 @@ namespace traverse::mapping {
 
 struct OccupancyOptions {
   double cell_m = 0.1;
-  double most_range_m = 40;     ///< points farther from the sensor do not count
-  double least_height_m = 0.3;  ///< above the ground: lower is no obstacle
-  double most_height_m = 2;     ///< and higher is driven under
+  double max_range_m = 40;    ///< points farther from the sensor do not count
+  double min_height_m = 0.3;  ///< above the ground: lower is no obstacle
+  double max_height_m = 2;    ///< and higher is driven under
 };
 void bind(config::Binder& binder, OccupancyOptions& options);
 

@@ -16,8 +16,8 @@ namespace traverse::mapping {
 /// bounded: when there are more points than allowed, the voxels double and the map is thinned.
 class VoxelMap {
  public:
-  /// \param voxel_m edge of a voxel at first  \param most_points above it the voxels double
-  VoxelMap(double voxel_m, std::size_t most_points);
+  /// \param voxel_m edge of a voxel at first  \param max_points above it the voxels double
+  VoxelMap(double voxel_m, std::size_t max_points);
   VoxelMap(VoxelMap&&) noexcept;
   VoxelMap& operator=(VoxelMap&&) noexcept;
   ~VoxelMap();
@@ -45,7 +45,7 @@ class VoxelMap {
   void coarsen();
 
   double voxel_m_;
-  std::size_t most_points_;
+  std::size_t max_points_;
   std::vector<Eigen::Vector3f> points_;
   std::vector<float> intensities_;
   std::unique_ptr<Occupied> occupied_;

@@ -42,7 +42,7 @@ class GzInput {
   /// behind it), and a count above `most` is damage: MRPT would take memory for as many things
   /// before it looks whether they are there.
   void expect_counts_up_to(std::optional<std::uint32_t> most) {
-    most_counted_ = most;
+    max_counted_ = most;
     things_follow_ = false;
   }
 
@@ -64,7 +64,7 @@ class GzInput {
   std::size_t end_ = 0;
   bool at_end_ = false;  ///< of what can be decompressed
   std::uint64_t position_ = 0;
-  std::optional<std::uint32_t> most_counted_;
+  std::optional<std::uint32_t> max_counted_;
   bool things_follow_ = false;  ///< the last count was of things that may be four bytes together
   std::string fault_;
 

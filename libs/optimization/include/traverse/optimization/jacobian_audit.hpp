@@ -17,7 +17,7 @@ namespace traverse::optimization {
 struct AuditOptions {
   std::size_t states = 200;           ///< random instances of each factor and perturbation
   std::uint32_t seed = 1;             ///< of them; equal seeds give equal figures
-  double least_residual = 0.1;        ///< |r| of a state that is used; in the residual's units
+  double min_residual = 0.1;          ///< |r| of a state that is used; in the residual's units
   double automatic_tolerance = 1e-9;  ///< largest relative difference to automatic derivatives
   double numeric_tolerance = 1e-7;    ///< to differences, which are exact to about 1e-10
 };
@@ -43,7 +43,7 @@ struct FactorAudit {
   std::string factor;
   std::string formula;
   Perturbation perturbation = Perturbation::kRight;
-  double least_residual = 0;    ///< |r| over the states: how far from zero the check stayed
+  double min_residual = 0;      ///< |r| over the states: how far from zero the check stayed
   double value_difference = 0;  ///< largest |r_analytic - r_automatic|
   std::vector<BlockAudit> blocks;
   bool passed = false;  ///< all blocks, and both forms are one residual to automatic_tolerance
@@ -59,7 +59,7 @@ struct JacobianAudit {
 /// Checks the analytic Jacobians of every kind for each of its perturbations: at random states
 /// against automatic derivatives, and against central differences of its own value along
 /// RotationManifold's Plus. A factor that cannot be evaluated, or gives NaN, fails.
-/// \throws std::invalid_argument for a factor whose residual is never options.least_residual.
+/// \throws std::invalid_argument for a factor whose residual is never options.min_residual.
 JacobianAudit audit_jacobians(std::span<const FactorKind> kinds, const AuditOptions& options);
 
 /// The kinds that `uses` name, each with the perturbations named. \throws std::invalid_argument for
@@ -67,8 +67,8 @@ JacobianAudit audit_jacobians(std::span<const FactorKind> kinds, const AuditOpti
 std::vector<FactorKind> selected(std::span<const FactorKind> kinds,
                                  std::span<const FactorUse> uses);
 
-/// The audit as JSON: {"passed", "states", "seed", "least_residual", "tolerance": {"automatic",
-/// "numeric"}, "factors": [{"factor", "formula", "perturbation", "passed", "least_residual",
+/// The audit as JSON: {"passed", "states", "seed", "min_residual", "tolerance": {"automatic",
+/// "numeric"}, "factors": [{"factor", "formula", "perturbation", "passed", "min_residual",
 /// "value_difference", "blocks": [{"block", "passed", "largest_entry", "automatic": D,
 /// "numeric": D}]}]} with D = {"absolute", "relative", "worst_state"}; null for what is not finite.
 std::string to_json(const JacobianAudit& audit);

@@ -31,6 +31,10 @@ struct Pipeline {
 /// \throws files::InputError for an unknown estimator or a wrong setting (file, line, key).
 std::vector<ResolvedSetting> resolve_settings(const Preset& preset);
 
+/// What the user should know of the preset's settings: keys that were given by former names.
+/// \throws as resolve_settings()
+std::vector<std::string> settings_notes(const Preset& preset);
+
 /// Builds the estimator that the preset names for the recording's sensors.
 /// \throws files::InputError for an unknown estimator or a wrong setting (file, line, key);
 /// std::runtime_error if the recording lacks a sensor that the estimator needs.

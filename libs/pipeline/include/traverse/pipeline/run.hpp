@@ -20,7 +20,7 @@ struct RunOptions {
   int threads = 1;
   bool hash_recording = true;
   double map_voxel_m = 0.2;
-  std::size_t most_map_points = 20'000'000;
+  std::size_t max_map_points = 20'000'000;
   std::vector<std::string> command;  ///< for the record
 };
 

@@ -44,7 +44,7 @@ class Checkpoints {
   static constexpr std::size_t kMost = 24;
   static constexpr std::size_t kMostBytes = 512UL << 20;
 
-  explicit Checkpoints(std::size_t most_bytes = kMostBytes) : most_bytes_(most_bytes) {}
+  explicit Checkpoints(std::size_t max_bytes = kMostBytes) : max_bytes_(max_bytes) {}
 
   bool has(std::size_t frame) const { return by_frame_.count(frame) != 0; }
   std::size_t size() const { return by_frame_.size(); }
@@ -66,7 +66,7 @@ class Checkpoints {
 
   bool drop_one(std::size_t present_frame);
 
-  std::size_t most_bytes_;
+  std::size_t max_bytes_;
   std::size_t bytes_ = 0;
   std::map<std::size_t, Kept> by_frame_;
 };

@@ -23,7 +23,7 @@ struct ChosenPoints {
 /// Bounded: with too many points the voxels double and the map is thinned.
 class MapHistory {
  public:
-  MapHistory(double voxel_m, std::size_t most_points);
+  MapHistory(double voxel_m, std::size_t max_points);
   MapHistory(MapHistory&&) noexcept;
   MapHistory& operator=(MapHistory&&) noexcept;
   ~MapHistory();
@@ -58,7 +58,7 @@ class MapHistory {
   void coarsen();
 
   double voxel_m_;
-  std::size_t most_points_;
+  std::size_t max_points_;
   std::vector<Eigen::Vector3f> points_;
   std::vector<float> intensities_;
   std::vector<std::size_t> points_at_frame_;

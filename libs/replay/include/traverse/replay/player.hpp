@@ -29,7 +29,7 @@ struct PlayerOptions {
   pipeline::PresetRequest preset;
   int threads = 1;
   double map_voxel_m = 0;  ///< 0: 0.25 with a 3-D lidar, else 0.05
-  std::size_t most_map_points = 4'000'000;
+  std::size_t max_map_points = 4'000'000;
   bool keep_index = true;  ///< in the user's cache folder
 };
 

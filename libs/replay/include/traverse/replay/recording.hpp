@@ -33,7 +33,7 @@ class Recording {
   const std::string& frame_sensor() const { return frame_sensor_; }
   std::size_t first_frame() const { return run_ ? run_->facts.first_frame : 0; }
   /// Frames there are at most: those of the run, when it is one.
-  std::size_t most_frames() const { return most_frames_; }
+  std::size_t max_frames() const { return max_frames_; }
   bool is_run() const { return run_.has_value(); }
   bool has_lidar() const { return info_.rig.first(sensors::SensorKind::kLidar) != nullptr; }
   const std::filesystem::path& share_folder() const { return options_.share_folder; }
@@ -61,7 +61,7 @@ class Recording {
   dataset::RecordingInfo info_;
   std::optional<dataset::Reference> reference_;
   std::string frame_sensor_;
-  std::size_t most_frames_ = std::numeric_limits<std::size_t>::max();
+  std::size_t max_frames_ = std::numeric_limits<std::size_t>::max();
   std::optional<Run> run_;
 };
 

@@ -20,9 +20,9 @@ struct GravityOptions {
   double odometry_sigma_m = 0.01;  ///< of its positions, each frame for itself
   /// Of the vehicle's acceleration what is believed to remain: stamps, scale, mounting.
   double acceleration_share = 0.01;
-  double least_sigma_deg = 1;
-  double most_gap_s = 0.05;    ///< between samples; slower ones do not see how a vehicle shakes
-  double most_off_m_s2 = 0.2;  ///< of the length found to that of gravity, beside what sigma tells
+  double min_sigma_deg = 1;
+  double max_gap_s = 0.05;    ///< between samples; slower ones do not see how a vehicle shakes
+  double max_off_m_s2 = 0.2;  ///< of the length found to that of gravity, beside what sigma tells
 };
 void bind(config::Binder& binder, GravityOptions& options);
 

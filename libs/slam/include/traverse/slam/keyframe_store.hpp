@@ -19,8 +19,8 @@ class SpillFile;
 /// share keyframes and file, which nobody changes.
 class KeyframeStore {
  public:
-  /// \param most_bytes of points in memory
-  explicit KeyframeStore(std::size_t most_bytes);
+  /// \param max_bytes of points in memory
+  explicit KeyframeStore(std::size_t max_bytes);
 
   /// Where the file is made, when it is needed; without it, in the system's folder for temporary
   /// files.
@@ -43,7 +43,7 @@ class KeyframeStore {
     std::uint64_t offset = 0;
   };
 
-  std::size_t most_bytes_;
+  std::size_t max_bytes_;
   std::filesystem::path folder_;
   std::size_t resident_bytes_ = 0;
   std::size_t first_resident_ = 0;

@@ -19,7 +19,7 @@ struct LocalizerOptions {
   double search_half_turn_deg = 15;  ///< around a given start
   double slip_m = 1;                 ///< around odometry's pose, when a scan does not fit there
   PlaceChecks checks;
-  double most_rival = 0.8;   ///< support of the next best place, as a share of the best one's
+  double max_rival = 0.8;    ///< support of the next best place, as a share of the best one's
   double agreement_m = 0.3;  ///< two scans tell the same place up to this
   double agreement_deg = 1;
   int witnesses_within = 10;  ///< scans before that may confirm a place

@@ -14,11 +14,11 @@
 namespace traverse::slam {
 
 struct CandidateOptions {
-  double least_way_m = 40;  ///< driven since; nearer keyframes are the present surroundings
-  double reach_m = 8;       ///< keyframes farther apart do not make a loop
-  double sigmas = 3;        ///< of the predicted position that reach_m grows by
-  int ring_keys = 10;       ///< nearest ring keys whose contexts are compared
-  double most_descriptor_distance = 0.35;  ///< of two contexts that look like one place
+  double min_way_m = 40;  ///< driven since; nearer keyframes are the present surroundings
+  double reach_m = 8;     ///< keyframes farther apart do not make a loop
+  double sigmas = 3;      ///< of the predicted position that reach_m grows by
+  int ring_keys = 10;     ///< nearest ring keys whose contexts are compared
+  double max_descriptor_distance = 0.35;  ///< of two contexts that look like one place
   ScanContextOptions context;
 };
 void bind(config::Binder& binder, CandidateOptions& options);
@@ -36,7 +36,7 @@ class LoopCandidates {
  public:
   explicit LoopCandidates(const CandidateOptions& options);
 
-  /// Adds the next keyframe. Those within least_way_m of it are not found yet.
+  /// Adds the next keyframe. Those within min_way_m of it are not found yet.
   void add(ScanContext context, double way_m, const Eigen::Vector3d& p_map);
 
   /// The keyframes that can be found are those before this one.

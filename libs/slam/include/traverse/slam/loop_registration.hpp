@@ -14,7 +14,7 @@ struct LoopRegistrationOptions {
   voxel_map::AlignmentOptions alignment;
   double start_spacing_m = 1;  ///< between the starts of the search, in the ground plane
   double start_spacing_deg = 5;
-  int most_starts = 400;       ///< about so many: a grid's rim can add as many again
+  int max_starts = 400;        ///< about so many: a grid's rim can add as many again
   double on_surface_m = 0.15;  ///< a point so near a plane or line lies on it
 };
 void bind(config::Binder& binder, LoopRegistrationOptions& options);
@@ -35,7 +35,7 @@ struct SearchRegion {
 
 /// Starts that cover the region: on a grid, from the inside out, the guess first. When there would
 /// be too many the grid is coarser, so that however large the region is, they are at most three
-/// times most_starts.
+/// times max_starts.
 std::vector<geometry::Pose3> starts_around(const geometry::Pose3& guess, const SearchRegion& region,
                                            const LoopRegistrationOptions& options);
 

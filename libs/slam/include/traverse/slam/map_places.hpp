@@ -27,8 +27,8 @@ enum class PlaceVerdict : std::uint8_t {
 std::string_view name_of(PlaceVerdict verdict);
 
 struct PlaceChecks {
-  double least_in_common = 0.6;  ///< MapPlaces::Fit::in_common
-  double most_residual_m = 0.1;  ///< rms of the matches
+  double min_in_common = 0.6;   ///< MapPlaces::Fit::in_common
+  double max_residual_m = 0.1;  ///< rms of the matches
 };
 
 /// The keyframes of a map that was made before, as places where a scan can be. A value: copies are

@@ -26,18 +26,18 @@ namespace traverse::slam {
 
 /// What a verified loop must satisfy.
 struct LoopChecks {
-  double least_overlap = 0.5;       ///< share of the keyframe's points on the submap's surfaces,
+  double min_overlap = 0.5;         ///< share of the keyframe's points on the submap's surfaces,
                                     ///< to the share that the submap's centre reaches
-  double most_residual_m = 0.1;     ///< rms of the matches
-  double most_chi2 = 22.5;          ///< of the difference to odometry; 99.9 % of 6 d.o.f.
+  double max_residual_m = 0.1;      ///< rms of the matches
+  double max_chi2 = 22.5;           ///< of the difference to odometry; 99.9 % of 6 d.o.f.
   double odometry_share = 0.003;    ///< of the way, odometry's systematic part of that difference
   double confirmed_within_m = 0.5;  ///< a prediction this certain confirms a loop by itself;
   int witnesses_within = 8;         ///< else one among so many keyframes before must agree,
   double agreement_m = 0.3;         ///< the two and odometry closing a circle up to this
   double agreement_deg = 1;
-  double inflation = 100;       ///< of the covariance from the solver's information, and
-  double least_sigma_m = 0.02;  ///< the least that is believed of a loop
-  double least_sigma_deg = 0.05;
+  double inflation = 100;     ///< of the covariance from the solver's information, and
+  double min_sigma_m = 0.02;  ///< the least that is believed of a loop
+  double min_sigma_deg = 0.05;
 };
 void bind(config::Binder& binder, LoopChecks& options);
 

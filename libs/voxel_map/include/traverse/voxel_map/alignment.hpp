@@ -15,8 +15,8 @@ struct AlignmentOptions {
   double narrow_gate_m = 0.3;  ///< then half of it each round, down to this
   double converged_m = 0.002;  ///< a round that moves the pose by less than both is the last
   double converged_deg = 0.006;
-  int least_matches = 50;           ///< with fewer the prediction stands
-  double least_eigenvalue = 0.001;  ///< smaller: the direction is degenerate (Observability)
+  int min_matches = 50;           ///< with fewer the prediction stands
+  double min_eigenvalue = 0.001;  ///< smaller: the direction is degenerate (Observability)
   MatchOptions matches;
   ObjectiveOptions objective;
 };

@@ -14,8 +14,8 @@ namespace traverse::voxel_map {
 
 struct LineMapOptions {
   double cell_m = 0.6;
-  int least_points = 5;       ///< a cell needs to have a line
-  int least_frames = 3;       ///< in which it was seen: passers-by leave no lines
+  int min_points = 5;         ///< a cell needs to have a line
+  int min_frames = 3;         ///< in which it was seen: passers-by leave no lines
   double refit_growth = 1.2;  ///< a line is fitted again when its points have grown by this factor
   LineFitOptions fit;
 };

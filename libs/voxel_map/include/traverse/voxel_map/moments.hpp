@@ -65,10 +65,10 @@ struct FittedPlane {
 };
 
 struct PlaneFitOptions {
-  double flatness = 0.1;         ///< smallest eigenvalue at most this times the middle one
-  double thickness_m = 0.2;      ///< square root of the smallest eigenvalue at most
-  double least_width_m = 0.025;  ///< square root of the middle eigenvalue at least: points of one
-                                 ///< beam lie on a line, which is no plane
+  double flatness = 0.1;       ///< smallest eigenvalue at most this times the middle one
+  double thickness_m = 0.2;    ///< square root of the smallest eigenvalue at most
+  double min_width_m = 0.025;  ///< square root of the middle eigenvalue at least: points of one
+                               ///< beam lie on a line, which is no plane
 };
 
 /// The plane through the points by principal components, if they lie like one. The smallest
@@ -86,8 +86,8 @@ struct FittedLine {
 };
 
 struct LineFitOptions {
-  double slenderness = 0.3;      ///< middle eigenvalue at most this times the largest
-  double least_length_m = 0.06;  ///< square root of the largest eigenvalue at least
+  double slenderness = 0.3;    ///< middle eigenvalue at most this times the largest
+  double min_length_m = 0.06;  ///< square root of the largest eigenvalue at least
 };
 
 std::optional<FittedLine> fit_line(const Moments& moments, const LineFitOptions& options);

@@ -16,7 +16,7 @@ namespace traverse::voxel_map {
 
 struct PlaneMapOptions {
   double cell_m = 0.5;        ///< edge of a cell; its parent is three times as wide
-  int least_points = 8;       ///< a cell needs to have a plane
+  int min_points = 8;         ///< a cell needs to have a plane
   double refit_growth = 1.2;  ///< a plane is fitted again when its points have grown by this factor
   PlaneFitOptions fit;
 };

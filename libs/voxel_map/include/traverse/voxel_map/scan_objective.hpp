@@ -37,9 +37,9 @@ struct NormalEquations {
 };
 
 struct ObjectiveOptions {
-  double kernel = 3;         ///< k, in robust standard deviations of this scan
-  double least_scale = 0.3;  ///< the robust standard deviation is not taken smaller
-  double line_weight = 16;   ///< share of a line match; of a plane match 1
+  double kernel = 3;        ///< k, in robust standard deviations of this scan
+  double min_scale = 0.3;   ///< the robust standard deviation is not taken smaller
+  double line_weight = 16;  ///< share of a line match; of a plane match 1
 };
 void bind(config::Binder& binder, ObjectiveOptions& options);
 

@@ -18,8 +18,8 @@ struct Range {
   Range joined(const Range& other) const;
   /// Wider by `share` of its span at each end.
   Range padded(double share) const;
-  /// At least `least_span` wide about the same middle.
-  Range at_least(double least_span) const;
+  /// At least `min_span` wide about the same middle.
+  Range at_least(double min_span) const;
 };
 
 /// The value below which `percent` of the finite `values` lie, interpolated between neighbours; NaN

@@ -1,0 +1,187 @@
+#include "traverse/batch/job.hpp"
+
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "traverse/files/atomic_file.hpp"
+#include "traverse/files/digest.hpp"
+#include "traverse/files/input_error.hpp"
+#include "traverse/files/json_document.hpp"
+#include "traverse/files/text_file.hpp"
+#include "traverse/pipeline/registry.hpp"
+#include "traverse/pipeline/run_record.hpp"
+
+#include "execution/run_output.hpp"
+#include "plan/plan_error.hpp"
+
+namespace traverse::batch {
+
+namespace {
+
+using nlohmann::json;
+
+/// A pipeline at a point of its grid, and the digest of all its settings.
+struct Variant {
+  const PlannedPipeline& pipeline;
+  std::vector<std::string> settings;
+  std::string estimator;
+  std::string configuration_sha256;
+};
+
+Variant resolve(const PlannedPipeline& pipeline, std::vector<std::string> point,
+                const std::filesystem::path& share_folder) {
+  pipeline::PresetRequest request{pipeline.preset, pipeline.config_files, pipeline.assignments};
+  request.assignments.insert(request.assignments.end(), point.begin(), point.end());
+  try {
+    const pipeline::Preset preset = pipeline::load_preset(request, share_folder);
+    std::string digest = pipeline::configuration_sha256(pipeline::resolve_settings(preset));
+    return {pipeline, std::move(point), preset.resolved.scalar("estimator").value_or(""),
+            std::move(digest)};
+  } catch (const files::InputError& error) {
+    throw plan_error(pipeline.origin, "settings that the preset takes together", error.what());
+  }
+}
+
+std::vector<std::string> run_arguments(const Plan& plan, const PlannedRecording& recording,
+                                       const Variant& variant) {
+  // The run works inside its own folder, so that its command holds wherever that is moved to.
+  std::vector<std::string> words{"run", recording.path.string(), "-o", kRunOutput};
+  const auto add = [&](const char* option, const std::string& value) {
+    words.insert(words.end(), {option, value});
+  };
+  add("--pipeline", variant.pipeline.preset);
+  for (const auto& file : variant.pipeline.config_files) add("--config", file.string());
+  for (const std::string& assignment : variant.pipeline.assignments) add("--set", assignment);
+  for (const std::string& assignment : variant.settings) add("--set", assignment);
+  if (!recording.statements_file.empty()) {
+    add("--recording-config", recording.statements_file.string());
+  }
+  for (const std::string& statement : recording.statements) add("--recording", statement);
+  if (!recording.reference.empty()) add("--reference", recording.reference.string());
+  if (!recording.reference_frame.empty()) add("--reference-frame", recording.reference_frame);
+  if (recording.first > 0) add("--first", std::to_string(recording.first));
+  if (recording.last >= 0) add("--last", std::to_string(recording.last));
+  add("--threads", std::to_string(plan.limits.threads));
+  words.emplace_back("--no-hash");  // the batch has digested each recording, once
+  if (!plan.reports) words.emplace_back("--no-report");
+  return words;
+}
+
+std::string identity_of(const Plan& plan, const PlannedRecording& recording,
+                        const std::string& recording_sha256, const Variant& variant, int repeat,
+                        const std::string& program) {
+  std::string text = fmt::format(
+      "program {}\nrecording {}\nstatements {}\nreference_frame {}\nframes {} {}\nestimator {}\n"
+      "configuration {}\nthreads {}\nreport {}\n",
+      program, recording_sha256, fmt::join(recording.statements, "; "), recording.reference_frame,
+      recording.first, recording.last, variant.estimator, variant.configuration_sha256,
+      plan.limits.threads, plan.reports);
+  return text + fmt::format("repeat {}\n", repeat);
+}
+
+json to_json(const Job& job) {
+  return {{"id", job.id},
+          {"identity", job.identity},
+          {"recording", job.recording},
+          {"pipeline", job.pipeline},
+          {"settings", job.settings},
+          {"repeat", job.repeat},
+          {"arguments", job.arguments},
+          {"time_s", job.limits.time_s},
+          {"memory_mb", job.limits.memory_mb},
+          {"threads", job.limits.threads},
+          {"attempts", job.limits.attempts}};
+}
+
+Job job_of(const files::JsonValue& line) {
+  Job job;
+  job.id = line["id"].text();
+  job.identity = line["identity"].text();
+  job.recording = line["recording"].text();
+  job.pipeline = line["pipeline"].text();
+  job.settings = line["settings"].texts();
+  job.repeat = line["repeat"].small_integer();
+  job.arguments = line["arguments"].texts();
+  job.limits.time_s = line["time_s"].number();
+  job.limits.memory_mb = line["memory_mb"].number();
+  job.limits.threads = line["threads"].small_integer();
+  job.limits.attempts = line["attempts"].small_integer();
+  return job;
+}
+
+}  // namespace
+
+std::string Job::variant() const {
+  return settings.empty() ? pipeline : fmt::format("{} {}", pipeline, fmt::join(settings, " "));
+}
+
+std::string Job::title() const {
+  return fmt::format("{}, {}{}", recording, variant(),
+                     repeat > 1 ? fmt::format(", repeat {}", repeat) : "");
+}
+
+std::vector<Job> make_jobs(const Plan& plan, const RecordingDigests& recordings,
+                           const std::string& program, const std::filesystem::path& share_folder) {
+  std::vector<Variant> variants;
+  for (const PlannedPipeline& pipeline : plan.pipelines) {
+    for (auto& point : grid_points(pipeline.grid)) {
+      variants.push_back(resolve(pipeline, std::move(point), share_folder));
+    }
+  }
+  std::vector<Job> jobs;
+  for (const PlannedRecording& recording : plan.recordings) {
+    for (const Variant& variant : variants) {
+      for (int repeat = 1; repeat <= plan.repeats; ++repeat) {
+        Job job;
+        job.identity =
+            identity_of(plan, recording, recordings.at(recording.name), variant, repeat, program);
+        job.id = files::sha256_of_text(job.identity);
+        job.recording = recording.name;
+        job.pipeline = variant.pipeline.name;
+        job.settings = variant.settings;
+        job.repeat = repeat;
+        job.arguments = run_arguments(plan, recording, variant);
+        job.limits = plan.limits;
+        jobs.push_back(std::move(job));
+      }
+    }
+  }
+  return jobs;
+}
+
+std::vector<Job> distinct(const std::vector<Job>& jobs) {
+  std::set<std::string_view> seen;
+  std::vector<Job> first;
+  for (const Job& job : jobs) {
+    if (seen.insert(job.id).second) first.push_back(job);
+  }
+  return first;
+}
+
+void write_jobs(const std::filesystem::path& file, const std::vector<Job>& jobs) {
+  std::string text;
+  for (const Job& job : jobs) text += to_json(job).dump() + "\n";
+  files::write_text(file, text);
+}
+
+std::vector<Job> read_jobs(const std::filesystem::path& file, std::size_t first,
+                           std::size_t count) {
+  std::vector<Job> jobs;
+  files::LineReader reader(file);
+  for (std::size_t number = 0; jobs.size() < count && reader.next(); ++number) {
+    if (number < first) continue;
+    try {
+      jobs.push_back(job_of(files::JsonDocument::parse(reader.line()).root()));
+    } catch (const files::InputError& error) {
+      throw reader.error("a job with " + error.expected() + " (" + error.place().text + ")",
+                         error.found());
+    }
+  }
+  return jobs;
+}
+
+}  // namespace traverse::batch

@@ -1,0 +1,198 @@
+#include "traverse/batch/plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "traverse/batch/metric.hpp"
+#include "traverse/files/numbers.hpp"
+#include "traverse/files/text_file.hpp"
+
+#include "plan/plan_error.hpp"
+#include "plan/plan_pipelines.hpp"
+#include "plan/plan_recordings.hpp"
+
+namespace traverse::batch {
+
+namespace {
+
+using config::Binder;
+using config::Document;
+using config::Range;
+
+/// Less than this the program itself takes.
+constexpr double kLeastMemory_mb = 100;
+
+void bind(Binder& b, RunLimits& limits) {
+  b.number("time_s", limits.time_s, Range::between(0.1, 1e7), "of a run, seconds");
+  b.number("memory_mb", limits.memory_mb, Range::between(kLeastMemory_mb, 1e7),
+           "resident, of a run");
+  b.integer("threads", limits.threads, Range::between(1, 256), "of a run");
+  b.integer("attempts", limits.attempts, Range::between(1, 100),
+            "of a run that something outside killed");
+}
+
+void check_metric(const std::string& name, const config::Origin& origin) {
+  if (find_metric(name) == nullptr) {
+    throw plan_error(origin, "a metric (`traverse batch metrics` lists them)",
+                     files::in_quotes(name));
+  }
+}
+
+std::vector<std::string> read_metrics(const Document& document) {
+  if (!document.has("metrics")) return default_metrics();
+  std::vector<std::string> names;
+  for (const Document& item : document.items("metrics", "name")) {
+    const std::string name = item.scalar("name").value_or("");
+    check_metric(name, item.origin());
+    if (std::count(names.begin(), names.end(), name) > 0) {
+      throw plan_error(item.origin(), "each metric once", files::in_quotes(name) + " again");
+    }
+    names.push_back(name);
+  }
+  if (names.empty()) throw plan_error(*document.origin("metrics"), "at least one metric", "none");
+  return names;
+}
+
+std::vector<Budget> read_budgets(const Document& document) {
+  std::vector<Budget> budgets;
+  for (const config::Leaf& leaf : document.child("budgets").leaves()) {
+    check_metric(leaf.path, leaf.origin);
+    const auto most = files::parse_double(leaf.text);
+    if (!most) throw plan_error(leaf.origin, "a number for '" + leaf.path + "'", leaf.text);
+    budgets.push_back({leaf.path, *most});
+  }
+  return budgets;
+}
+
+SlurmOptions read_slurm(const Document& document, std::vector<std::string>& notes) {
+  SlurmOptions slurm;
+  const Document section = document.child("slurm");
+  static constexpr std::array<std::string_view, 1> kOptions{"options"};
+  notes = config::read(
+      section,
+      [&](Binder& b) {
+        b.integer("runs_per_task", slurm.runs_per_task, Range::between(1, 1e6),
+                  "runs that a task of the array does, one after the other");
+        b.integer("max_at_once", slurm.max_at_once, Range::between(1, 1e6),
+                  "tasks of the array that run at one time");
+      },
+      kOptions);
+  const Document options = section.child("options");
+  static const std::set<std::string, std::less<>> kOurs{"array",    "output", "error", "job-name",
+                                                        "parsable", "wrap",   "wait"};
+  for (const config::Leaf& leaf : options.leaves()) {
+    const auto value = options.scalar(leaf.path);
+    if (!value) throw plan_error(leaf.origin, "one value for '" + leaf.path + "'", leaf.text);
+    if (kOurs.contains(leaf.path)) {
+      throw plan_error(leaf.origin, "options that the batch does not set itself",
+                       files::in_quotes(leaf.path));
+    }
+    slurm.sbatch.push_back("--" + leaf.path + (*value == "true" ? "" : "=" + *value));
+  }
+  return slurm;
+}
+
+void read_settings(const Document& document, Plan& plan) {
+  static constexpr std::array<std::string_view, 6> kOthers{"recordings", "pipelines", "grid",
+                                                           "metrics",    "budgets",   "slurm"};
+  config::read(
+      document,
+      [&](Binder& b) {
+        b.text("description", plan.description, "what the batch is for");
+        b.integer("repeats", plan.repeats, Range::between(1, 10000), "runs of each combination");
+        b.flag("reports", plan.reports, "pictures and report.html of each run");
+        b.group("limits", "of each run", [&](Binder& limits) { bind(limits, plan.limits); });
+      },
+      kOthers);
+  plan.threads_origin = document.origin("limits.threads").value_or(document.origin());
+  plan.memory_origin = document.origin("limits.memory_mb").value_or(document.origin());
+}
+
+constexpr std::size_t kBeyondCount = std::numeric_limits<std::size_t>::max();
+
+std::size_t product(std::size_t a, std::size_t b) {
+  std::size_t result = 0;
+  return __builtin_mul_overflow(a, b, &result) ? kBeyondCount : result;
+}
+
+std::size_t sum(std::size_t a, std::size_t b) {
+  std::size_t result = 0;
+  return __builtin_add_overflow(a, b, &result) ? kBeyondCount : result;
+}
+
+/// Of all pipelines with each point of their grids.
+std::size_t count_variants(const Plan& plan) {
+  std::size_t variants = 0;
+  for (const PlannedPipeline& pipeline : plan.pipelines) {
+    std::size_t points = 1;
+    for (const GridAxis& axis : pipeline.grid) points = product(points, axis.values.size());
+    variants = sum(variants, points);
+  }
+  return variants;
+}
+
+}  // namespace
+
+Plan load_plan(const std::filesystem::path& file, const std::filesystem::path& share_folder,
+               const SimulationCheck& simulation_error) {
+  Plan plan;
+  plan.file = std::filesystem::absolute(file).lexically_normal();
+  plan.text = files::read_text(file);
+  const Document document = Document::parse(plan.text, file.string());
+  read_settings(document, plan);
+  plan.metrics = read_metrics(document);
+  plan.budgets = read_budgets(document);
+  plan.slurm = read_slurm(document, plan.notes);
+  plan.recordings = read_recordings(document, plan.file.parent_path(), simulation_error);
+  plan.pipelines = read_pipelines(document, plan.file.parent_path(), share_folder, plan.notes);
+  if (count_runs(plan) > kMostRuns) {
+    const char* key = document.has("grid") ? "grid" : "pipelines";
+    throw plan_error(*document.origin(key),
+                     fmt::format("at most {} runs (make it several plans)", kMostRuns),
+                     describe(plan));
+  }
+  return plan;
+}
+
+std::string describe(const Plan& plan) {
+  const std::size_t variants = count_variants(plan);
+  const std::size_t recordings = plan.recordings.size();
+  const std::size_t runs = count_runs(plan);
+  const auto number = [](std::size_t n) {
+    return n == kBeyondCount ? "more than can be counted" : fmt::format("{}", n);
+  };
+  const auto noun = [&](std::size_t n, const char* word) {
+    return fmt::format("{} {}{}", number(n), word, n == 1 ? "" : "s");
+  };
+  return fmt::format("{} x {} ({} with the grid) x {} = {}", noun(recordings, "recording"),
+                     noun(plan.pipelines.size(), "pipeline"), number(variants),
+                     noun(static_cast<std::size_t>(plan.repeats), "repeat"), noun(runs, "run"));
+}
+
+std::size_t count_runs(const Plan& plan) {
+  return product(product(plan.recordings.size(), count_variants(plan)),
+                 static_cast<std::size_t>(plan.repeats));
+}
+
+std::vector<std::vector<std::string>> grid_points(const std::vector<GridAxis>& grid) {
+  std::vector<std::vector<std::string>> points{{}};
+  for (const GridAxis& axis : grid) {
+    std::vector<std::vector<std::string>> extended;
+    for (const auto& point : points) {
+      for (const std::string& value : axis.values) {
+        extended.push_back(point);
+        extended.back().push_back(axis.key + "=" + value);
+      }
+    }
+    points = std::move(extended);
+  }
+  return points;
+}
+
+}  // namespace traverse::batch

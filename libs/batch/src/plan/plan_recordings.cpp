@@ -1,0 +1,206 @@
+#include "plan/plan_recordings.hpp"
+
+#include <array>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glob.h>
+
+#include "traverse/files/input_error.hpp"
+
+#include "plan/plan_error.hpp"
+
+namespace traverse::batch {
+
+namespace {
+
+namespace fs = std::filesystem;
+using config::Binder;
+using config::Document;
+using config::Origin;
+
+/// An entry of the list as it is written.
+struct Entry {
+  PlannedRecording recording;
+  std::string path;
+  std::string world;
+  std::vector<double> seeds;
+};
+
+fs::path absolute_below(const fs::path& folder, const std::string& path) {
+  return (folder / path).lexically_normal();
+}
+
+/// A file that the entry names under `key`, which must be there.
+fs::path existing_file(const Document& entry, std::string_view key, const std::string& name,
+                       const fs::path& folder) {
+  if (name.empty()) return {};
+  fs::path file = absolute_below(folder, name);
+  if (!fs::is_regular_file(file)) {
+    throw plan_error(*entry.origin(key), "a file that is there", files::in_quotes(file.string()));
+  }
+  return file;
+}
+
+std::vector<std::string> read_statements(const Document& entry) {
+  std::vector<std::string> statements;
+  for (const config::Leaf& leaf : entry.child("statements").leaves()) {
+    statements.push_back(leaf.path + "=" + leaf.text);
+  }
+  return statements;
+}
+
+/// {length: 60, quiet: true} as the words --length 60 --quiet.
+std::vector<std::string> option_words(const Document& options) {
+  std::vector<std::string> words;
+  for (const config::Leaf& leaf : options.leaves()) {
+    const std::string value = options.scalar(leaf.path).value_or(leaf.text);
+    if (value == "false") continue;
+    words.push_back("--" + leaf.path);
+    if (value != "true") words.push_back(value);
+  }
+  return words;
+}
+
+Entry read_entry(const Document& document, const fs::path& folder) {
+  Entry entry;
+  PlannedRecording& recording = entry.recording;
+  recording.origin = document.origin();
+  std::string config_file;
+  std::string reference;
+  static constexpr std::array<std::string_view, 4> kFrames{"", "body", "lidar", "camera"};
+  static constexpr std::array<std::string_view, 2> kOthers{"statements", "arguments"};
+  config::read(
+      document,
+      [&](Binder& b) {
+        b.text("path", entry.path, "of the recording, or a glob");
+        b.text("simulate", entry.world, "what `traverse simulate` is to make");
+        b.numbers("seeds", entry.seeds, "one generated recording a seed");
+        b.text("name", recording.name, "in tables");
+        b.text("config", config_file, "statements about the recording");
+        b.text("reference", reference, "trajectory to compare with");
+        b.word("reference_frame", recording.reference_frame, kFrames, "what moves along it");
+        b.integer("first", recording.first, config::Range::non_negative(), "first frame");
+        b.integer("last", recording.last, config::Range::non_negative(), "last frame, included");
+      },
+      kOthers);
+  if (entry.path.empty() == entry.world.empty()) {
+    throw plan_error(recording.origin, "either 'path' or 'simulate'",
+                     entry.path.empty() ? "neither" : "both");
+  }
+  if (recording.last >= 0 && recording.last < recording.first) {
+    throw plan_error(*document.origin("last"), "a last frame that is not before the first",
+                     std::to_string(recording.last));
+  }
+  recording.statements_file = existing_file(document, "config", config_file, folder);
+  recording.reference = existing_file(document, "reference", reference, folder);
+  recording.statements = read_statements(document);
+  for (const char* key : {"arguments", "seeds"}) {
+    if (entry.world.empty() && document.has(key)) {
+      throw plan_error(*document.origin(key), fmt::format("'{}' beside 'simulate' only", key),
+                       "a recording that is not made");
+    }
+  }
+  return entry;
+}
+
+std::vector<fs::path> matching(const fs::path& pattern) {
+  glob_t found{};
+  std::vector<fs::path> paths;
+  if (::glob(pattern.c_str(), 0, nullptr, &found) == 0) {
+    for (std::size_t i = 0; i < found.gl_pathc; ++i) paths.emplace_back(found.gl_pathv[i]);
+  }
+  ::globfree(&found);
+  return paths;
+}
+
+std::string name_of_path(const fs::path& path) {
+  return fs::is_directory(path) ? path.filename().string() : path.stem().string();
+}
+
+void add_recorded(const Entry& entry, const fs::path& folder,
+                  std::vector<PlannedRecording>& recordings) {
+  const Origin& origin = entry.recording.origin;
+  fs::path pattern = absolute_below(folder, entry.path);
+  if (!pattern.has_filename()) pattern = pattern.parent_path();  // "drive/" is "drive"
+  const std::vector<fs::path> paths = matching(pattern);
+  if (paths.empty()) {
+    throw plan_error(origin, "a recording that is there", files::in_quotes(pattern.string()));
+  }
+  if (paths.size() > 1 && !entry.recording.name.empty()) {
+    throw plan_error(origin, "one recording for a name",
+                     fmt::format("{} that match", paths.size()));
+  }
+  for (const fs::path& path : paths) {
+    recordings.push_back(entry.recording);
+    recordings.back().path = path;
+    if (entry.recording.name.empty()) recordings.back().name = name_of_path(path);
+  }
+}
+
+void add_generated(const Entry& entry, const Document& document,
+                   const SimulationCheck& simulation_error,
+                   std::vector<PlannedRecording>& recordings) {
+  PlannedRecording made = entry.recording;
+  if (made.name.empty()) made.name = entry.world;
+  made.generated = {entry.world, option_words(document.child("arguments"))};
+  std::vector<PlannedRecording> all;
+  for (const double seed : entry.seeds) {
+    PlannedRecording seeded = made;
+    seeded.name += fmt::format("-seed{}", seed);
+    seeded.generated->arguments.insert(seeded.generated->arguments.end(),
+                                       {"--seed", fmt::format("{}", seed)});
+    all.push_back(std::move(seeded));
+  }
+  if (all.empty()) all.push_back(std::move(made));
+  for (const PlannedRecording& recording : all) {
+    std::vector<std::string> words{recording.generated->world};
+    words.insert(words.end(), recording.generated->arguments.begin(),
+                 recording.generated->arguments.end());
+    if (const auto error = simulation_error(words)) {
+      throw plan_error(recording.origin, "what `traverse simulate` takes", *error);
+    }
+  }
+  recordings.insert(recordings.end(), all.begin(), all.end());
+}
+
+void check_names(const std::vector<PlannedRecording>& recordings) {
+  std::map<std::string, const PlannedRecording*> names;
+  for (const PlannedRecording& recording : recordings) {
+    if (recording.name.empty() || recording.name.find('/') != std::string::npos) {
+      throw plan_error(recording.origin, "a name without '/'", files::in_quotes(recording.name));
+    }
+    const auto [other, is_new] = names.emplace(recording.name, &recording);
+    if (!is_new) {
+      throw plan_error(recording.origin, "names that are there once (give it a 'name')",
+                       fmt::format("{} again (first: line {})", files::in_quotes(recording.name),
+                                   other->second->origin.line));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<PlannedRecording> read_recordings(const Document& plan, const fs::path& folder,
+                                              const SimulationCheck& simulation_error) {
+  std::vector<PlannedRecording> recordings;
+  for (const Document& item : plan.items("recordings", "path")) {
+    const Entry entry = read_entry(item, folder);
+    if (entry.world.empty()) {
+      add_recorded(entry, folder, recordings);
+    } else {
+      add_generated(entry, item, simulation_error, recordings);
+    }
+  }
+  if (recordings.empty()) {
+    throw plan_error(plan.origin("recordings").value_or(plan.origin()), "at least one recording",
+                     "none");
+  }
+  check_names(recordings);
+  return recordings;
+}
+
+}  // namespace traverse::batch

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "results/report.hpp"
+
+namespace traverse::batch {
+
+/// The numbers that the page's scripts draw from, as JSON that may stand inside an HTML script
+/// element.
+///
+/// {
+///   "metrics": [{"key", "title", "unit", "lower"}],
+///   "recordings": [NAME], "pipelines": [NAME],
+///   "variants": [{"name", "pipeline", "settings": ["key=value"], "runs", "ok", "over_budget",
+///                 "means": [a metric], "kitti": null | {"segments", "translation" | "rotation":
+///                 {"all_segments", "per_recording"}}}],          best first
+///   "planned_variants": [["key=value"]],                         in the order of the plan
+///   "budgets": [{"metric", "most"}],
+///   "runs": [{"recording", "variant": indices, "repeat", "outcome": null | NAME, "values": [a
+///             metric], "folder": null | PATH, "report"}],        in the order of the plan
+///   "baseline": null | {"ok": [{"variant", "runs", "before", "now", "verdict"}],
+///                       "changes": [{"variant", "metric": index, "recordings", "before", "now",
+///                                    "percent", "interval": null | [low, high], "verdict"}]}
+/// }
+std::string report_data_json(const ReportData& data);
+
+}  // namespace traverse::batch

@@ -1,0 +1,49 @@
+#include "navigation_log/log_statements.hpp"
+
+namespace traverse::dataset {
+
+using config::Binder;
+using config::Range;
+
+namespace {
+
+constexpr std::array<std::pair<std::string_view, AngularUnit>, 2> kAngularUnits{
+    {{"rad", AngularUnit::kRadians}, {"deg", AngularUnit::kDegrees}}};
+constexpr std::array<std::pair<std::string_view, PulseCount>, 2> kPulseCounts{
+    {{"interval", PulseCount::kInterval}, {"cumulative", PulseCount::kCumulative}}};
+
+void bind_file(Binder& b, CsvColumns& columns) {
+  b.text("file", columns.file, "CSV file with a header line, relative to the folder");
+  b.text("time", columns.time, "column of the time");
+  b.text("columns", columns.columns, "names of the columns, blanks between");
+  b.number("period_s", columns.period_s, Range::non_negative(),
+           "of the sensor's own clock, where readings are stamped when they arrive; 0: not so");
+}
+
+void bind_columns(Binder& b, std::string_view key, CsvColumns& columns, std::string_view which) {
+  b.group(key, which, [&](Binder& group) { bind_file(group, columns); });
+}
+
+}  // namespace
+
+void bind(Binder& b, LogStatements& log) {
+  b.choice("angular_rate", log.angular_rate, kAngularUnits, "unit of the gyro, a second");
+  b.choice("pulses", log.pulses, kPulseCounts, "since the line before, or since some beginning");
+  b.number("time_unit_s", log.time_unit_s, Range::positive(), "seconds that a 1 in the time means");
+}
+
+void bind(Binder& b, CsvStatements& csv) {
+  bind_columns(b, "gyro", csv.gyro, "x y z");
+  bind_columns(b, "accelerometer", csv.accelerometer, "x y z, m/s^2");
+  bind_columns(b, "gnss", csv.gnss, "latitude longitude altitude, and heading where it is told");
+  bind_columns(b, "wheels", csv.wheels, "forward speeds, m/s");
+  b.group("reference", "x y z qw qx qy qz of the body, ECEF", [&](Binder& group) {
+    bind_file(group, csv.reference);
+    group.numbers("roll_pitch_yaw_deg", csv.reference_roll_pitch_yaw_deg,
+                  "of the quaternion's axes in the body: about x, then y, then z, degrees");
+  });
+  b.choice("angular_rate", csv.angular_rate, kAngularUnits, "unit of the gyro, a second");
+  b.number("time_unit_s", csv.time_unit_s, Range::positive(), "seconds that a 1 in the time means");
+}
+
+}  // namespace traverse::dataset

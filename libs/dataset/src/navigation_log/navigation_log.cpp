@@ -1,0 +1,189 @@
+#include "navigation_log/navigation_log.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "traverse/files/input_error.hpp"
+#include "traverse/files/numbers.hpp"
+#include "traverse/files/text_file.hpp"
+
+#include "recording/folder_opening.hpp"
+#include "recording/listed_source.hpp"
+
+namespace traverse::dataset {
+
+using files::InputError;
+using files::Place;
+using sensors::GnssFix;
+using sensors::ImuSample;
+using sensors::SensorKind;
+using sensors::WheelOdometry;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kImu = "IMU";
+constexpr const char* kWheels = "ODOM";
+constexpr const char* kGnss = "GNSS";
+constexpr std::size_t kMostWords = 9;  // one more than a line can have
+constexpr std::int64_t kMostTicks = std::int64_t{1} << 60;
+
+/// Why a line is not used, to be counted with others of its kind.
+class BadLine : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class LineParser {
+ public:
+  explicit LineParser(const LogStatements& log) : log_(log) {}
+
+  sensors::Measurement parse(std::string_view line) {
+    const std::vector<std::string_view> words = files::split_words(line, kMostWords);
+    if (words[0] == kImu) return imu(numbers(words, 7));
+    if (words[0] == kWheels) return wheels(numbers(words, 3));
+    if (words[0] == kGnss) return gnss(numbers(words, 6));
+    throw BadLine("a line that does not begin with IMU, ODOM or GNSS");
+  }
+
+ private:
+  static std::vector<double> numbers(const std::vector<std::string_view>& words,
+                                     std::size_t count) {
+    const std::string kind(words[0]);
+    if (words.size() != count + 1) {
+      throw BadLine(fmt::format("{} line with not {} numbers", kind, count));
+    }
+    std::vector<double> values;
+    for (std::size_t i = 1; i < words.size(); ++i) {
+      const auto value = files::parse_double(words[i]);
+      if (!value) throw BadLine(kind + " line with a word that is no number");
+      if (!std::isfinite(*value)) throw BadLine(kind + " line with a number that is not finite");
+      values.push_back(*value);
+    }
+    return values;
+  }
+
+  geometry::Stamp stamp(double time, const char* kind) const {
+    constexpr double kLatest = 9e9;  // seconds that whole nanoseconds can hold
+    const double seconds = time * log_.time_unit_s;
+    if (std::abs(seconds) > kLatest) throw BadLine(std::string(kind) + " line with no such time");
+    return geometry::Stamp::from_seconds(seconds);
+  }
+
+  ImuSample imu(const std::vector<double>& v) const {
+    const double unit = log_.angular_rate == AngularUnit::kDegrees ? std::numbers::pi / 180 : 1;
+    return {stamp(v[0], kImu), kImu, unit * Eigen::Vector3d(v[1], v[2], v[3]),
+            Eigen::Vector3d(v[4], v[5], v[6])};
+  }
+
+  WheelOdometry wheels(const std::vector<double>& v) {
+    constexpr double kMost = 1e15;
+    if (std::abs(v[1]) > kMost || std::abs(v[2]) > kMost)
+      throw BadLine("ODOM line with no such count");
+    const WheelOdometry::Ticks told{std::llround(v[1]), std::llround(v[2])};
+    WheelOdometry reading;
+    reading.stamp = stamp(v[0], kWheels);
+    reading.sensor = kWheels;
+    if (log_.pulses == PulseCount::kCumulative) {
+      reading.ticks = told;
+    } else {
+      if (std::abs(ticks_.left) > kMostTicks || std::abs(ticks_.right) > kMostTicks) {
+        throw BadLine("ODOM line after more pulses than can be counted");
+      }
+      ticks_ = {ticks_.left + told.left, ticks_.right + told.right};
+      reading.ticks = ticks_;
+    }
+    return reading;
+  }
+
+  GnssFix gnss(const std::vector<double>& v) const {
+    if (std::abs(v[1]) > 90 || std::abs(v[2]) > 360) throw BadLine("GNSS line with no such place");
+    if (v[5] != 0 && v[5] != 1) throw BadLine("GNSS line whose heading_valid is not 0 or 1");
+    GnssFix fix;
+    fix.stamp = stamp(v[0], kGnss);
+    fix.sensor = kGnss;
+    fix.latitude_deg = v[1];
+    fix.longitude_deg = v[2];
+    fix.altitude_m = v[3];
+    if (v[5] == 1) fix.heading_deg = v[4];
+    return fix;
+  }
+
+  LogStatements log_;
+  WheelOdometry::Ticks ticks_;
+};
+
+void mount(RecordingInfo& info, const Statements& statements, const ListedRecords& records) {
+  for (const auto& stream : {std::pair{kImu, SensorKind::kImu},
+                             {kGnss, SensorKind::kGnss},
+                             {kWheels, SensorKind::kWheels}}) {
+    if (!records.has(stream.first)) continue;
+    info.rig.sensors.push_back(
+        {stream.first, stream.second, geometry::Pose3::identity(), std::nullopt});
+    apply_vehicle(statements, info.rig.sensors.back());
+  }
+}
+
+}  // namespace
+
+bool is_navigation_log(const fs::path& file) {
+  constexpr std::size_t kLinesLookedAt = 20;
+  files::LineReader reader(file);
+  try {
+    for (std::size_t i = 0; i < kLinesLookedAt && reader.next(); ++i) {
+      const auto words = files::split_words(reader.line(), kMostWords);
+      if (words.empty()) continue;
+      if (words[0] == kImu || words[0] == kWheels || words[0] == kGnss) return true;
+      if (words[0].size() > 100) return false;
+    }
+  } catch (const InputError&) {
+    return false;  // no line of a log is so long
+  }
+  return false;
+}
+
+std::unique_ptr<Source> open_navigation_log(const fs::path& file, const OpenOptions& options) {
+  const Statements statements(fs::path(file).replace_extension(".traverse.yaml"), options,
+                              file.parent_path());
+  RecordingInfo info = begin_info(file, "navigation log", statements, "vehicle");
+  const auto unit = statements->log.angular_rate == AngularUnit::kDegrees ? "deg/s" : "rad/s";
+  const auto pulses =
+      statements->log.pulses == PulseCount::kCumulative ? "cumulative" : "of each interval";
+  info.facts.push_back(
+      {"angular rates", unit, statements.reason("log.angular_rate", "default, not stated")});
+  info.facts.push_back({"pulses", pulses, statements.reason("log.pulses", "default, not stated")});
+
+  ListedRecords records;
+  LineParser parser(statements->log);
+  files::LineReader reader(file);
+  while (reader.next()) {
+    const std::string place = fmt::format("line {}", reader.number());
+    try {
+      records.add(parser.parse(reader.line()), place);
+    } catch (const BadLine& bad) {
+      records.skip(bad.what(), place);
+    }
+  }
+  mount(info, statements, records);
+  if (info.rig.sensors.empty()) {
+    throw InputError(file, Place::whole_file(), "lines of IMU, ODOM or GNSS that can be used",
+                     records.first_fault().empty() ? "no line" : records.first_fault());
+  }
+  std::optional<Reference> reference;
+  if (const auto stated = stated_reference(statements)) {
+    reference = load_reference(*stated, {}, {}, info.facts);
+  }
+  return make_listed_source(std::move(info), std::move(records), std::move(reference));
+}
+
+}  // namespace traverse::dataset

@@ -1,0 +1,163 @@
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "traverse/files/input_error.hpp"
+#include "traverse/files/numbers.hpp"
+
+#include "point_clouds/cloud_scan.hpp"
+#include "point_clouds/field_values.hpp"
+#include "recording/folder_opening.hpp"
+#include "recording/stamp_files.hpp"
+
+namespace traverse::dataset {
+
+using files::InputError;
+using geometry::Stamp;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kLidar = "lidar";
+
+/// A stamp written as a file's name: seconds with decimals, or whole nanoseconds or microseconds
+/// told apart by their size. Small whole numbers are counts, not times.
+std::optional<Stamp> stamp_in_name(const std::string& name) {
+  constexpr std::int64_t kLeastNanoseconds = 100'000'000'000'000'000;   // the year 1973
+  constexpr std::int64_t kMostNanoseconds = 9'200'000'000'000'000'000;  // the year 2261
+  if (const auto whole = files::parse_integer(name)) {
+    const auto is_between = [&](std::int64_t least, std::int64_t most) {
+      return least <= *whole && *whole <= most;
+    };
+    if (is_between(kLeastNanoseconds, kMostNanoseconds)) return Stamp{*whole};
+    if (is_between(kLeastNanoseconds / 1000, kMostNanoseconds / 1000)) return Stamp{*whole * 1000};
+    return std::nullopt;
+  }
+  return name.find('.') == std::string::npos ? std::nullopt : geometry::parse_stamp_seconds(name);
+}
+
+std::optional<std::vector<ScanFile>> stamp_by_name(const std::vector<fs::path>& files,
+                                                   std::vector<Fact>& facts) {
+  std::vector<ScanFile> scans;
+  for (const fs::path& file : files) {
+    const auto stamp = stamp_in_name(file.stem().string());
+    if (!stamp) return std::nullopt;
+    scans.push_back({file, stamp});
+  }
+  std::stable_sort(scans.begin(), scans.end(), [](const ScanFile& a, const ScanFile& b) {
+    return a.stamp->nanoseconds < b.stamp->nanoseconds;
+  });
+  facts.push_back({"scan stamps", "the files' names", "they are times; there is no times file"});
+  return scans;
+}
+
+std::vector<ScanFile> stamp_scans(const fs::path& folder, const std::vector<fs::path>& files,
+                                  const Statements& statements, std::vector<Fact>& facts) {
+  for (const char* name : {"times.txt", "timestamps.txt"}) {
+    if (fs::exists(folder / name)) {
+      return stamp_by_line(files, read_stamps(folder / name), name, "scan", facts);
+    }
+  }
+  if (auto scans = stamp_by_name(files, facts)) return *scans;
+  return stamp_by_period(files, statements, facts);
+}
+
+/// The files of the kind that there are most of.
+std::vector<fs::path> find_clouds(const fs::path& folder, std::vector<Fact>& facts) {
+  std::vector<fs::path> pcd = files_with_extension(folder, ".pcd");
+  std::vector<fs::path> ply = files_with_extension(folder, ".ply");
+  const bool take_pcd = pcd.size() >= ply.size();
+  const std::size_t left = take_pcd ? ply.size() : pcd.size();
+  if (left > 0) {
+    facts.push_back({"files left out", fmt::format("{} {}", left, take_pcd ? "PLY" : "PCD"),
+                     take_pcd ? "there are at least as many PCD" : "there are more PLY"});
+  }
+  return take_pcd ? pcd : ply;
+}
+
+/// The last scan that can be read: it shows what the recording's files hold.
+struct Example {
+  PointCloud cloud;
+  sensors::LidarScan scan;
+};
+
+Example find_example(const fs::path& folder, const std::vector<ScanFile>& scans) {
+  std::string fault = "none";
+  for (auto scan = scans.rbegin(); scan != scans.rend(); ++scan) {
+    if (!scan->stamp) continue;
+    try {
+      Example example{read_point_cloud(scan->file), {}};
+      example.scan = scan_from_cloud(example.cloud, *scan->stamp, std::nullopt, scan->file);
+      if (!example.scan.empty()) return example;
+      fault = "clouds without points";
+    } catch (const InputError& error) {
+      fault = error.what();
+    }
+  }
+  throw InputError(folder, files::Place::whole_file(),
+                   "a point cloud with a stamp that can be read", fault);
+}
+
+double intensity_full_scale(const FieldValues& field) {
+  switch (type_of(field)) {
+    case ScalarType::kUint8:
+      return 255;
+    case ScalarType::kUint16:
+      return 65535;
+    default: {
+      const std::vector<double> values = to_doubles(field);
+      return *std::max_element(values.begin(), values.end()) <= 1 ? 1 : 255;
+    }
+  }
+}
+
+/// What the files themselves tell about the lidar.
+ProfileChoice profile_from(const Example& example, bool has_time) {
+  ProfileChoice choice;
+  choice.reason = "default; from the fields of the last scan";
+  choice.profile.time_source = has_time ? sensors::TimeSource::kData : sensors::TimeSource::kNone;
+  const std::vector<std::uint16_t>& rings = example.scan.ring;
+  if (rings.empty()) {
+    choice.reason += ", which have no ring number";
+  } else {
+    choice.profile.rings = *std::max_element(rings.begin(), rings.end()) + 1;
+  }
+  if (const FieldValues* intensity = intensity_of(example.cloud)) {
+    choice.profile.intensity_full_scale = intensity_full_scale(*intensity);
+  }
+  return choice;
+}
+
+}  // namespace
+
+std::unique_ptr<Source> open_point_cloud_folder(const fs::path& folder,
+                                                const OpenOptions& options) {
+  const Statements statements(folder / "traverse.yaml", options, folder);
+  FolderRecording recording;
+  RecordingInfo& info = recording.info;
+  info = begin_info(folder, "point-cloud folder", statements, "lidar");
+  set_motion_compensation(info, statements, false, "default, not stated");
+
+  const std::vector<fs::path> files = find_clouds(folder, info.facts);
+  recording.scans = stamp_scans(folder, files, statements, info.facts);
+  info.expected_scans = recording.scans.size();
+  const Example example = find_example(folder, recording.scans);
+  const auto time = find_point_time(example.cloud, example.scan.stamp, info.facts);
+  mount_lidar(
+      info, kLidar,
+      choose_profile(statements, options.share_folder, profile_from(example, time.has_value())),
+      statements);
+  recording.lidar = kLidar;
+
+  set_camera(info, statements, folder / "calib.txt");
+  recording.reference =
+      choose_reference(info, statements, std::nullopt, stamps_of(recording.scans));
+  recording.read = [time](const ScanFile& scan) {
+    return scan_from_cloud(read_point_cloud(scan.file), *scan.stamp, time, scan.file);
+  };
+  return make_folder_source(std::move(recording));
+}
+
+}  // namespace traverse::dataset

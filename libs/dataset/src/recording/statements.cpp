@@ -1,0 +1,113 @@
+#include "recording/statements.hpp"
+
+#include <array>
+#include <utility>
+
+namespace traverse::dataset {
+
+using config::Binder;
+using config::Range;
+using files::InputError;
+using files::Place;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kOption = "--recording";
+constexpr std::array<std::pair<std::string_view, ReferenceFrame>, 3> kFrames{
+    {{"body", ReferenceFrame::kBody},
+     {"lidar", ReferenceFrame::kLidar},
+     {"camera", ReferenceFrame::kCamera}}};
+
+void bind_profile(Binder& b, sensors::LidarProfile& profile) {
+  b.group("lidar", "over the sensor profile",
+          [&](Binder& lidar) { sensors::bind(lidar, profile); });
+}
+
+}  // namespace
+
+std::string_view name_of(ReferenceFrame frame) {
+  for (const auto& [name, value] : kFrames) {
+    if (value == frame) return name;
+  }
+  return "unknown";
+}
+
+void bind(Binder& b, StatedValues& v) {
+  b.text("name", v.name, "what reports call the recording");
+  b.flag("motion_compensated", v.motion_compensated,
+         "the points of a scan already lie where they would at its stamp");
+  b.text("sensor", v.sensor, "lidar profile: a name in share/sensors, or a file");
+  b.group("reference", "the trajectory to compare with", [&](Binder& reference) {
+    reference.text("file", v.reference_file, "relative to the recording's folder");
+    reference.choice("format", v.reference_format, kTrajectoryFormatNames, "of the file");
+    reference.choice("frame", v.reference_frame, kFrames, "whose poses the file holds");
+    reference.number("north_deg", v.reference_north_deg, Range::between(-360, 360),
+                     "true north in the file's map, from x towards y");
+  });
+  b.text("calibration", v.calibration, "file in KITTI's form with the camera's pose");
+  b.text("body_frame", v.body_frame, "what reports call the body frame");
+  b.number("period_s", v.period_s, Range::positive(), "between scans without stamps");
+  b.text("first_stamp", v.first_stamp, "of the first scan without stamps, seconds");
+  b.group("vehicle", "where its sensors are, and what its wheels tell",
+          [&](Binder& vehicle) { bind(vehicle, v.vehicle); });
+  b.group("log", "how a text log writes things", [&](Binder& log) { bind(log, v.log); });
+  b.group("csv", "which columns of which files a recording is",
+          [&](Binder& csv) { bind(csv, v.csv); });
+}
+
+Statements::Statements(const fs::path& sidecar, const OpenOptions& options, fs::path folder)
+    : folder_(std::move(folder)) {
+  if (fs::exists(sidecar)) document_.overlay(config::Document::load(sidecar));
+  if (options.statements_file) {
+    document_.overlay(config::Document::load(*options.statements_file));
+  }
+  for (const std::string& statement : options.statements) document_.set(statement, kOption);
+
+  sensors::LidarProfile checked_only;
+  config::read(document_, [&](Binder& b) {
+    bind(b, values_);
+    bind_profile(b, checked_only);
+  });
+}
+
+void Statements::override_profile(sensors::LidarProfile& profile) const {
+  StatedValues known;  // so that its keys are not taken for unknown ones
+  config::read(document_, [&](Binder& b) {
+    bind(b, known);
+    bind_profile(b, profile);
+  });
+}
+
+std::optional<std::string> Statements::origin(std::string_view key) const {
+  auto origin = document_.origin(key);
+  if (!origin) return std::nullopt;
+  const fs::path source = origin->source;
+  if (origin->line > 0 && source.parent_path() == folder_) {
+    origin->source = source.filename().string();
+  }
+  return to_text(*origin);
+}
+
+std::string Statements::reason(std::string_view key, std::string otherwise) const {
+  return origin(key).value_or(std::move(otherwise));
+}
+
+fs::path Statements::find_file(std::string_view key, const std::string& value) const {
+  const auto origin = document_.origin(key);
+  const bool on_command_line = !origin || origin->line == 0;
+  const fs::path stated_in = on_command_line ? fs::path() : fs::path(origin->source).parent_path();
+  for (const fs::path& folder : {folder_, stated_in}) {
+    if (fs::path file = folder / value; fs::is_regular_file(file)) return file;
+  }
+  throw error(key, "a file, relative to " + folder_.string(), files::in_quotes(value));
+}
+
+InputError Statements::error(std::string_view key, std::string expected, std::string found) const {
+  const config::Origin origin = document_.origin(key).value_or(config::Origin{});
+  return {origin.source, origin.line == 0 ? Place::whole_file() : Place::line(origin.line),
+          std::move(expected) + " for '" + std::string(key) + "'", std::move(found)};
+}
+
+}  // namespace traverse::dataset

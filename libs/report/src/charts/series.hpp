@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "traverse/evaluation/evaluate.hpp"
+
+#include "run/run_data.hpp"
+
+/// Series of a run that several parts of its report need.
+namespace traverse::report {
+
+/// No value: a gap in a line, a dash in a table.
+inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// Seconds from the first pose of the estimate to each.
+std::vector<double> seconds_from_start(const RunData& run);
+/// The same of the poses that have a partner on the reference.
+std::vector<double> match_times(const RunData& run);
+/// One value a pose of the estimate, of one a match; NaN where a pose found no partner.
+std::vector<double> for_each_pose(const RunData& run, const std::vector<double>& for_each_match);
+
+/// The estimate brought onto the reference as the evaluation did, to be drawn over it.
+geometry::Trajectory aligned_estimate(const RunData& run);
+
+/// Unit vector to true north in the map frame of the estimate; nothing where it is not known.
+std::optional<Eigen::Vector3d> north_of_map(const RunData& run);
+/// The same in the frame of aligned_estimate().
+std::optional<Eigen::Vector3d> north_of_reference(const RunData& run);
+
+/// How the registration of the frames went.
+struct Registration {
+  std::size_t lost = 0;  ///< not registered, but for the first frame, which defines the map
+  std::size_t degenerate = 0;
+};
+Registration registration_of(const pipeline::FrameTable& frames);
+
+std::size_t skipped_records(const nlohmann::json& record);
+
+/// statistics::quantile(); NaN without values.
+double quantile_or_none(const std::vector<double>& values, double share);
+
+}  // namespace traverse::report

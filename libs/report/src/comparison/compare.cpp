@@ -1,0 +1,237 @@
+#include "traverse/report/compare.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "traverse/files/atomic_file.hpp"
+#include "traverse/files/input_error.hpp"
+#include "traverse/files/text_file.hpp"
+#include "traverse/render/pictures/trajectory_from_above.hpp"
+#include "traverse/render/renderer.hpp"
+
+#include "charts/series.hpp"
+#include "comparison/comparison.hpp"
+#include "page/data_uri.hpp"
+#include "page/number_text.hpp"
+#include "page/page.hpp"
+
+namespace traverse::report {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a recording is known by: its digest, or its name where none was computed.
+std::string identity(const RunData& run) {
+  const auto& recording = run.record.at("recording");
+  return recording.at("sha256").is_null() ? run.recording_name()
+                                          : recording.at("sha256").get<std::string>();
+}
+
+void require_same_recording(const ComparedRun& baseline, const ComparedRun& run) {
+  const bool both_hashed = !baseline.data.record.at("recording").at("sha256").is_null() &&
+                           !run.data.record.at("recording").at("sha256").is_null();
+  const bool same = both_hashed ? identity(baseline.data) == identity(run.data)
+                                : baseline.data.recording_name() == run.data.recording_name();
+  if (same) return;
+  throw files::InputError(run.data.folder.record(), files::Place::key("recording"),
+                          "a run of the recording of " + baseline.data.folder.path.string() + ", " +
+                              baseline.data.recording_name(),
+                          run.data.recording_name());
+}
+
+std::vector<ComparedRun> read_runs(const std::vector<fs::path>& folders) {
+  std::vector<ComparedRun> runs;
+  for (const fs::path& folder : folders) {
+    const fs::path plain = folder.has_filename() ? folder : folder.parent_path();
+    std::string name = plain.filename().string();
+    const bool taken = std::any_of(folders.begin(), folders.end(), [&](const fs::path& other) {
+      return other != folder &&
+             (other.has_filename() ? other : other.parent_path()).filename() == plain.filename();
+    });
+    if (taken) name = plain.string();
+    ComparedRun run{std::move(name), read_run(folder, pipeline::RunPart::kFigures), {}};
+    run.figures = run_figures(run.data);
+    runs.push_back(std::move(run));
+    require_same_recording(runs.front(), runs.back());
+  }
+  return runs;
+}
+
+/// All ways over the reference, light and dark, as data URIs.
+std::pair<std::string, std::string> draw_overlay(const std::vector<ComparedRun>& runs) {
+  std::vector<geometry::Trajectory> ways;
+  for (const ComparedRun& run : runs) ways.push_back(aligned_estimate(run.data));
+  std::vector<render::NamedTrajectory> named;
+  for (std::size_t k = 0; k < runs.size(); ++k) named.push_back({runs[k].name, &ways[k]});
+  const RunData& first = runs.front().data;
+  const geometry::Trajectory* reference =
+      first.reference && first.evaluation.comparison ? &*first.reference : nullptr;
+  const render::Caption caption{
+      "Trajectories from above",
+      plural(runs.size(), "run") + (reference != nullptr ? ", each aligned to the reference" : ""),
+      first.recording_name(), "", first.date()};
+  render::Renderer renderer;
+  render::Style style;
+  const auto draw = [&] {
+    return data_uri("image/png",
+                    renderer.render(render::trajectory_from_above(named, reference, caption, style))
+                        .encode_png());
+  };
+  std::string light = draw();
+  style.theme = render::dark_theme();
+  return {std::move(light), draw()};
+}
+
+/// How a run's figures differ from the baseline's.
+struct Changes {
+  std::string run;
+  std::vector<std::string> told;  ///< "APE improved"
+  std::size_t improved = 0;
+  std::size_t regressed = 0;
+};
+
+/// "b: APE improved; b: Time a frame regressed; 3 figures without a change that is sure."; of more
+/// than two runs only how many: "b: 1 improved, 2 regressed; c: nothing changed; ..."
+std::string sentence(const Json& differences) {
+  std::vector<Changes> runs;
+  std::size_t unchanged = 0;
+  for (const Json& row : differences.at("rows")) {
+    const auto name = row[0].get<std::string>();
+    const auto verdict = row.back().get<std::string>();
+    if (runs.empty() || runs.back().run != name) runs.push_back({name, {}, 0, 0});
+    const bool improved = verdict == "improved";
+    if (!improved && verdict != "regressed") {
+      ++unchanged;
+      continue;
+    }
+    ++(improved ? runs.back().improved : runs.back().regressed);
+    runs.back().told.push_back(row[1].get<std::string>() + " " + verdict);
+  }
+  std::string text;
+  for (const Changes& run : runs) {
+    if (runs.size() == 1) {
+      for (const std::string& change : run.told) text += fmt::format("{}: {}; ", run.run, change);
+      continue;
+    }
+    std::vector<std::string> counts;
+    if (run.improved > 0) counts.push_back(fmt::format("{} improved", run.improved));
+    if (run.regressed > 0) counts.push_back(fmt::format("{} regressed", run.regressed));
+    if (counts.empty()) counts.emplace_back("nothing changed");
+    text += fmt::format("{}: {}; ", run.run, fmt::join(counts, ", "));
+  }
+  return text + fmt::format("{} without a change that is sure.", plural(unchanged, "figure"));
+}
+
+std::string text_cell(const Json& value) {
+  if (value.is_string()) return value;
+  if (value.is_null()) return "–";
+  return value.is_number_integer() ? value.dump() : short_number(value);
+}
+
+std::size_t shown_width(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+  }));
+}
+
+/// A table of the JSON in aligned columns.
+std::string terminal_table(const Json& table) {
+  if (table.at("rows").empty()) return {};
+  std::vector<std::vector<std::string>> lines{table.at("columns")};
+  for (const Json& row : table.at("rows")) {
+    auto& line = lines.emplace_back();
+    for (const Json& value : row) line.push_back(text_cell(value));
+  }
+  std::vector<std::size_t> widths(lines.front().size(), 0);
+  for (const auto& line : lines) {
+    for (std::size_t k = 0; k < line.size(); ++k) {
+      widths[k] = std::max(widths[k], shown_width(line[k]));
+    }
+  }
+  std::string text = table.at("title").get<std::string>() + "\n";
+  for (const auto& line : lines) {
+    std::string row = " ";
+    for (std::size_t k = 0; k < line.size(); ++k) {
+      const std::string padding(widths[k] - shown_width(line[k]), ' ');
+      const bool number = !table.at("rows").front()[k].is_string();
+      row += " " + (number ? padding + line[k] : line[k] + padding) + " ";
+    }
+    row.erase(row.find_last_not_of(' ') + 1);
+    text += row + "\n";
+  }
+  return text + "\n";
+}
+
+/// The page and its numbers are replaced only where an earlier comparison stands.
+void require_own(const fs::path& page, const fs::path& numbers) {
+  std::error_code failure;
+  if (fs::is_regular_file(page, failure)) {
+    const std::string text = files::read_text(page);
+    const auto generator = text.find("name=\"generator\" content=\"Traverse");
+    if (generator != std::string::npos) return;
+    throw files::OutputError(page,
+                             "it is there already and no page of this program. Choose another name "
+                             "with -o");
+  }
+  if (fs::is_regular_file(numbers, failure)) {
+    throw files::OutputError(numbers,
+                             "it is there already, without a page of this program beside "
+                             "it. Choose another name with -o");
+  }
+}
+
+}  // namespace
+
+std::string write_comparison(const std::vector<fs::path>& folders, const fs::path& page,
+                             const fs::path& templates, const CompareOptions& options) {
+  if (folders.size() < 2) throw std::invalid_argument("a comparison needs two runs or more");
+  fs::path numbers = page;
+  numbers.replace_extension(".json");
+  require_own(page, numbers);
+  const std::vector<ComparedRun> runs = read_runs(folders);
+  Model model;
+  model.json["schema"] = "traverse/comparison/1";
+  model.add_text("recording", runs.front().data.recording_name());
+  model.add_text("baseline", runs.front().name);
+  model.json["threshold_percent"] = options.threshold_percent;
+  model.page.set("threshold", short_number(options.threshold_percent));
+  model.add_text("program_version",
+                 runs.front().data.record.at("program").at("version").get<std::string>());
+  Json names = Json::array();
+  for (const ComparedRun& run : runs) {
+    names.push_back({{"name", run.name},
+                     {"folder", run.data.folder.path.string()},
+                     {"pipeline", run.data.pipeline_name()}});
+  }
+  model.json["runs"] = std::move(names);
+
+  const ComparisonTables tables = comparison_tables(runs, options.threshold_percent);
+  for (const HtmlTable* table :
+       {&tables.differences, &tables.figures, &tables.wins, &tables.stretches, &tables.settings}) {
+    model.add_table(*table);
+  }
+  model.add_text("verdict", sentence(model.json["tables"]["differences"]));
+  add_comparison_charts(runs, model);
+  const auto [light, dark] = draw_overlay(runs);
+  model.page.set("overlay_light", light);
+  model.page.set("overlay_dark", dark);
+  model.page.set("report_json", text_for_script(model.json));
+
+  files::AtomicFiles output;
+  output.write(numbers, text_for_script(model.json) + "\n");
+  output.write(page, render_page(model.page, "compare",
+                                 {"dygraphs", "moment", "charts", "csv", "tables"}, templates));
+  output.commit();
+  std::string text;
+  for (const char* id : {"figures", "differences", "wins"}) {
+    text += terminal_table(model.json["tables"][id]);
+  }
+  return text + fmt::format("{}\n", model.json["verdict"].get<std::string>());
+}
+
+}  // namespace traverse::report

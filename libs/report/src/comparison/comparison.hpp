@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "figures/run_figures.hpp"
+#include "run/model.hpp"
+#include "run/run_data.hpp"
+
+namespace traverse::report {
+
+/// A run that takes part in a comparison.
+struct ComparedRun {
+  std::string name;
+  RunData data;
+  std::vector<RunFigure> figures;
+};
+
+enum class Change { kImproved, kNoChange, kRegressed, kUnknown };
+
+/// A difference that may be due to chance: all of `interval` must lie beyond `threshold` for it to
+/// count. Lower is better.
+Change judge(const evaluation::Interval& interval, double threshold);
+std::string to_text(Change change);
+
+/// What the page and the terminal show.
+struct ComparisonTables {
+  HtmlTable figures;      ///< a row a figure, a column a run
+  HtmlTable differences;  ///< a row a figure and run but the baseline
+  HtmlTable wins;         ///< a row a run
+  HtmlTable stretches;    ///< a row a stretch of the drive
+  HtmlTable settings;     ///< a row a setting that differs
+};
+
+ComparisonTables comparison_tables(const std::vector<ComparedRun>& runs, double threshold_percent);
+
+/// Errors of all runs over time under "charts", with their "poses".
+void add_comparison_charts(const std::vector<ComparedRun>& runs, Model& model);
+
+}  // namespace traverse::report

@@ -1,0 +1,177 @@
+#include "figures/run_figures.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "traverse/evaluation/titles.hpp"
+
+#include "charts/series.hpp"
+#include "page/number_text.hpp"
+
+namespace traverse::report {
+
+namespace {
+
+using evaluation::Comparison;
+using evaluation::Figure;
+using evaluation::Relation;
+
+RunFigure figure(std::string_view id, double value, std::string how, std::string no_interval) {
+  for (const FigureKind& kind : figure_kinds()) {
+    if (kind.id != id) continue;
+    RunFigure result;
+    result.id = id;
+    result.label = kind.label;
+    result.unit = kind.unit;
+    result.how = std::move(how);
+    result.value = value;
+    result.no_interval = std::move(no_interval);
+    return result;
+  }
+  throw std::invalid_argument(fmt::format("no figure is called {}", id));
+}
+
+/// With the interval of `values`, which are in the order of time.
+RunFigure figure_of_values(std::string_view id, double value, std::string how,
+                           const std::vector<double>& values, Figure kind) {
+  RunFigure result = figure(id, value, std::move(how), {});
+  result.interval = evaluation::bootstrap_interval(values, kind);
+  if (!result.interval) {
+    result.no_interval = fmt::format("{}, too few for an interval", plural(values.size(), "value"));
+  }
+  return result;
+}
+
+void add_path(const Comparison& comparison, std::vector<RunFigure>& figures) {
+  const evaluation::PathFigures& path = comparison.path;
+  const std::string how =
+      fmt::format("end point {} m off after {} m, from the first pose on",
+                  short_number(path.end_error_m), short_number(path.reference_m));
+  if (path.end_error_percent) {
+    figures.push_back(figure("end_drift_percent", *path.end_error_percent, how,
+                             "one end point: its scatter is not known"));
+  }
+  figures.push_back(
+      figure("end_error_m", path.end_error_m, how, "one end point: its scatter is not known"));
+}
+
+void add_ape(const Comparison& comparison, std::vector<RunFigure>& figures) {
+  for (const auto& [id, relation] : {std::pair{"ape_rmse_m", Relation::kTranslation},
+                                     std::pair{"ape_angle_rmse_deg", Relation::kAngleDeg}}) {
+    const auto* ape = find_ape(comparison, relation);
+    if (ape == nullptr) continue;
+    const std::string how = fmt::format(
+        "rmse, {}, {} pairs", evaluation::describe(comparison.alignment, ape->statistics.count),
+        ape->statistics.count);
+    figures.push_back(figure_of_values(id, ape->statistics.rmse, how, ape->values, Figure::kRmse));
+  }
+}
+
+void add_relative(const Comparison& comparison, std::vector<RunFigure>& figures) {
+  if (const auto& kitti = comparison.kitti) {
+    std::vector<double> translation;
+    std::vector<double> rotation;
+    for (const auto& segment : kitti->segments) {
+      translation.push_back(segment.translation_percent);
+      rotation.push_back(100 * segment.rotation_deg_per_m);
+    }
+    const std::string how = fmt::format("mean of {} of 100 to 800 m, {} frame",
+                                        plural(kitti->segments.size(), "segment"), kitti->frame);
+    figures.push_back(figure_of_values("kitti_translation_percent", kitti->translation_percent, how,
+                                       translation, Figure::kMean));
+    figures.push_back(figure_of_values("kitti_rotation_deg_per_100m",
+                                       100 * kitti->rotation_deg_per_m, how, rotation,
+                                       Figure::kMean));
+  }
+  if (const auto* rpe = find_rpe(comparison, Relation::kTranslation, 10)) {
+    figures.push_back(figure_of_values("rpe_10_frames_rmse_m", rpe->statistics.rmse,
+                                       fmt::format("rmse, {} pairs", rpe->statistics.count),
+                                       rpe->values, Figure::kRmse));
+  }
+}
+
+void add_health(const RunData& run, std::vector<RunFigure>& figures) {
+  const std::string exact = "a count, exact";
+  const Registration state = registration_of(run.frames);
+  figures.push_back(figure("lost_frames", static_cast<double>(state.lost),
+                           "frames that could not be registered, after the first", exact));
+  figures.push_back(figure("degenerate_frames", static_cast<double>(state.degenerate),
+                           "frames with a direction of motion that is not determined", exact));
+  figures.push_back(figure("skipped_records", static_cast<double>(skipped_records(run.record)),
+                           "records that could not be used", exact));
+}
+
+void add_cost(const RunData& run, std::vector<RunFigure>& figures) {
+  const auto& timing = run.record.at("timing_ms");
+  const int threads = run.record.at("threads");
+  const std::string on = fmt::format("{} thread{}", threads, threads == 1 ? "" : "s");
+  const std::string single = "one measurement of this run";
+  figures.push_back(figure_of_values(
+      "frame_median_ms", timing.at("frame_median"),
+      fmt::format("median, {} at 95 %, {}", short_number(timing.at("frame_p95").get<double>()), on),
+      run.frames.column("total_ms"), Figure::kMedian));
+  figures.push_back(
+      figure("frame_p95_ms", timing.at("frame_p95"), "95th percentile, " + on, single));
+  figures.push_back(figure("frame_max_ms", timing.at("frame_max"), "the slowest, " + on, single));
+  figures.push_back(
+      figure("wall_seconds", run.record.at("wall_seconds"), "the whole run, " + on, single));
+  figures.push_back(
+      figure("peak_memory_mb", run.record.at("peak_memory_mb"), "of the whole run", single));
+}
+
+}  // namespace
+
+const std::vector<FigureKind>& figure_kinds() {
+  static const std::vector<FigureKind> kinds{
+      {"end_drift_percent", "Drift", "%", "end error in percent of the reference's path"},
+      {"end_error_m", "End error", "m", "distance of the last poses, the first brought together"},
+      {"ape_rmse_m", "APE", "m", "absolute pose error, translation, rmse"},
+      {"ape_angle_rmse_deg", "APE, angle", "deg", "absolute pose error, rotation, rmse"},
+      {"kitti_translation_percent", "KITTI drift", "%", "mean over segments of 100 to 800 m"},
+      {"kitti_rotation_deg_per_100m", "KITTI rotation", "deg/100 m", "the same of the rotation"},
+      {"rpe_10_frames_rmse_m", "RPE over 10 frames", "m", "relative pose error, rmse"},
+      {"map_entropy_nats", "Map entropy", "nats", "mean map entropy; lower is sharper"},
+      {"lost_frames", "Lost frames", "", "frames that could not be registered"},
+      {"degenerate_frames", "Degenerate frames", "", "frames that do not determine their motion"},
+      {"skipped_records", "Skipped records", "", "records that could not be used"},
+      {"frame_median_ms", "Time per frame", "ms", "median time of the estimator"},
+      {"frame_p95_ms", "Time per frame, 95 %", "ms", "95th percentile of it"},
+      {"frame_max_ms", "Slowest frame", "ms", "the largest of it"},
+      {"wall_seconds", "Whole run", "s", "wall time of the run with its maps and evaluation"},
+      {"peak_memory_mb", "Memory", "MB", "largest memory of the run"}};
+  return kinds;
+}
+
+std::vector<RunFigure> accuracy_figures(const evaluation::Evaluation& evaluation) {
+  std::vector<RunFigure> figures;
+  if (const auto& comparison = evaluation.comparison) {
+    add_path(*comparison, figures);
+    add_ape(*comparison, figures);
+    add_relative(*comparison, figures);
+  }
+  if (const auto& score = evaluation.consistency) {
+    figures.push_back(figure("map_entropy_nats", score->mme,
+                             fmt::format("mean of {} queries, lower is sharper; points {}",
+                                         count_text(score->queries), score->points_are),
+                             "only its mean is kept"));
+  }
+  return figures;
+}
+
+std::vector<RunFigure> run_figures(const RunData& run) {
+  std::vector<RunFigure> figures = accuracy_figures(run.evaluation);
+  add_health(run, figures);
+  add_cost(run, figures);
+  return figures;
+}
+
+const RunFigure* find_figure(const std::vector<RunFigure>& figures, std::string_view id) {
+  const auto found = std::find_if(figures.begin(), figures.end(),
+                                  [&](const RunFigure& item) { return item.id == id; });
+  return found == figures.end() ? nullptr : &*found;
+}
+
+}  // namespace traverse::report

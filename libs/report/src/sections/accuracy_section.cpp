@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include "traverse/evaluation/titles.hpp"
+
+#include "page/html_table.hpp"
+#include "page/number_text.hpp"
+#include "sections/sections.hpp"
+
+namespace traverse::report {
+
+namespace {
+
+using evaluation::Relation;
+
+std::string relation_text(Relation relation) {
+  const std::string_view unit = evaluation::unit_of(relation);
+  return fmt::format("{}{}", evaluation::title_of(relation),
+                     unit.empty() ? "" : fmt::format(" [{}]", unit));
+}
+
+void add_statistics(std::vector<Cell>& cells, const evaluation::Statistics& s) {
+  for (const double value : {s.rmse, s.mean, s.median, s.std, s.min, s.max}) {
+    cells.emplace_back(value);
+  }
+  cells.push_back(Cell::count(s.count));
+}
+
+HtmlTable ape_table(const evaluation::Comparison& comparison) {
+  HtmlTable table("ape", "Absolute pose error",
+                  {"relation", "rmse", "mean", "median", "std", "min", "max", "pairs"});
+  for (const evaluation::Ape& ape : comparison.ape) {
+    std::vector<Cell> cells{relation_text(ape.relation)};
+    add_statistics(cells, ape.statistics);
+    table.add_row(std::move(cells));
+  }
+  return table;
+}
+
+/// The two relations that people ask for, or all the others.
+HtmlTable rpe_table(const evaluation::Comparison& comparison, bool main_relations) {
+  HtmlTable table(main_relations ? "rpe" : "rpe_more",
+                  main_relations ? "Relative pose error" : "Relative pose error, other relations",
+                  {"stretch", "relation", "rmse", "mean", "median", "std", "min", "max", "pairs"});
+  for (const evaluation::Rpe& rpe : comparison.rpe) {
+    const bool main = rpe.relation == Relation::kTranslation || rpe.relation == Relation::kAngleDeg;
+    if (main != main_relations) continue;
+    std::vector<Cell> cells{evaluation::describe(rpe.options), relation_text(rpe.relation)};
+    add_statistics(cells, rpe.statistics);
+    table.add_row(std::move(cells));
+  }
+  return table;
+}
+
+HtmlTable kitti_table(const evaluation::KittiDrift& kitti, const std::string& id,
+                      const std::string& by, const std::vector<evaluation::KittiBin>& bins) {
+  HtmlTable table(id, "KITTI drift by " + by,
+                  {by, "translation [%]", "rotation [deg/100 m]", "segments"});
+  for (const evaluation::KittiBin& bin : bins) {
+    table.add_row({bin.centre, bin.translation_percent, 100 * bin.rotation_deg_per_m,
+                   Cell::count(bin.segments)});
+  }
+  Cell all("all");
+  all.numeric = true;
+  table.add_row({all, kitti.translation_percent, 100 * kitti.rotation_deg_per_m,
+                 Cell::count(kitti.segments.size())},
+                true);
+  return table;
+}
+
+HtmlTable path_table(const evaluation::PathFigures& path) {
+  HtmlTable table("path", "Path", {"figure", "value", "unit"});
+  table.add_row({"path of the estimate", path.estimate_m, "m"});
+  table.add_row({"path of the reference", path.reference_m, "m"});
+  table.add_row({"end error", path.end_error_m, "m"});
+  if (path.end_error_percent) table.add_row({"end error", *path.end_error_percent, "%"});
+  table.add_row({"end rotation", path.end_rotation_deg, "deg"});
+  return table;
+}
+
+HtmlTable consistency_table(const evaluation::Consistency& score) {
+  HtmlTable table("consistency", "Sharpness of the map", {"figure", "value", "unit", "over"});
+  const std::string queries = count_text(score.queries) + " queries";
+  table.add_row({"mean map entropy (MME)", score.mme, "nats", queries});
+  table.add_row({"mean plane deviation (MPV)", 100 * score.mpv_m, "cm", queries});
+  if (const auto& planes = score.point_to_plane) {
+    const std::string planar = count_text(planes->queries) + " planar queries";
+    table.add_row({"distance to planes of other scans, mean", 100 * planes->mean_m, "cm", planar});
+    table.add_row({"the same, median", 100 * planes->median_m, "cm", planar});
+    table.add_row({"the same, 90 %", 100 * planes->p90_m, "cm", planar});
+  }
+  return table;
+}
+
+HtmlTable undefined_table(const evaluation::Comparison& comparison) {
+  HtmlTable table("undefined", "Figures that the trajectories do not define",
+                  {"figure", "because"});
+  for (const evaluation::Undefined& item : comparison.undefined) {
+    table.add_row({item.metric, item.reason});
+  }
+  return table;
+}
+
+void add_comparison(const evaluation::Comparison& comparison, Model& model) {
+  model.add_text("association", evaluation::describe(comparison.association));
+  model.add_text("alignment", evaluation::describe(comparison.alignment, comparison.stamps.size()));
+  model.add_table(ape_table(comparison));
+  model.add_table(rpe_table(comparison, true));
+  model.add_table(rpe_table(comparison, false));
+  model.add_table(path_table(comparison.path));
+  model.add_text("path_how", evaluation::path_title(comparison));
+  model.page.set("has_kitti", comparison.kitti.has_value());
+  if (const auto& kitti = comparison.kitti) {
+    model.add_table(kitti_table(*kitti, "kitti_by_length", "length [m]", kitti->by_length));
+    model.add_table(kitti_table(*kitti, "kitti_by_speed", "speed [m/s]", kitti->by_speed));
+    model.add_text("kitti_how", evaluation::title(*kitti));
+  }
+  model.add_table(undefined_table(comparison));
+}
+
+}  // namespace
+
+void add_accuracy(const RunData& run, Model& model) {
+  model.page.set("has_comparison", run.evaluation.comparison.has_value());
+  if (run.evaluation.comparison) add_comparison(*run.evaluation.comparison, model);
+  model.page.set("table_consistency", false);
+  if (const auto& score = run.evaluation.consistency) {
+    model.add_table(consistency_table(*score));
+    model.add_text("consistency_how", evaluation::title(*score));
+  }
+}
+
+}  // namespace traverse::report

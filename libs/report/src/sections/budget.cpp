@@ -1,0 +1,102 @@
+#include "traverse/report/budget.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "traverse/config/document.hpp"
+#include "traverse/files/input_error.hpp"
+
+#include "charts/series.hpp"
+#include "page/number_text.hpp"
+#include "sections/budget_check.hpp"
+
+namespace traverse::report {
+
+namespace {
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+std::map<std::string_view, double> read_limits(const std::filesystem::path& file) {
+  std::map<std::string_view, double> limits;
+  for (const FigureKind& kind : figure_kinds()) limits[kind.id] = kNoLimit;
+  config::read(config::Document::load(file), [&](config::Binder& binder) {
+    for (const FigureKind& kind : figure_kinds()) {
+      binder.number(kind.id, limits[kind.id], config::Range::any(), kind.meaning);
+    }
+  });
+  return limits;
+}
+
+std::string value_text(const BudgetLine& line) {
+  return line.value ? short_number(*line.value) : "not defined";
+}
+
+}  // namespace
+
+bool BudgetResult::passed() const {
+  return std::all_of(lines.begin(), lines.end(),
+                     [](const BudgetLine& line) { return line.passed(); });
+}
+
+std::string BudgetResult::table() const {
+  std::string text;
+  for (const BudgetLine& line : lines) {
+    text += fmt::format("{}  {:<28}{} {}{}at most {}\n", line.passed() ? "pass" : "FAIL",
+                        line.figure, value_text(line), line.unit, line.unit.empty() ? "" : ", ",
+                        short_number(line.limit));
+  }
+  const auto failed = std::count_if(lines.begin(), lines.end(),
+                                    [](const BudgetLine& line) { return !line.passed(); });
+  text += failed == 0 ? fmt::format("budget {}: kept\n", file.string())
+                      : fmt::format("budget {}: {} of {} limits not kept\n", file.string(), failed,
+                                    lines.size());
+  return text;
+}
+
+BudgetResult check_figures(const std::filesystem::path& file,
+                           const std::vector<RunFigure>& figures) {
+  const auto limits = read_limits(file);
+  BudgetResult result;
+  result.file = file;
+  for (const FigureKind& kind : figure_kinds()) {
+    const double limit = limits.at(kind.id);
+    if (limit == kNoLimit) continue;
+    BudgetLine line{std::string(kind.id), std::string(kind.label), std::string(kind.unit), limit,
+                    std::nullopt};
+    if (const RunFigure* found = find_figure(figures, kind.id)) line.value = found->value;
+    result.lines.push_back(std::move(line));
+  }
+  if (result.lines.empty()) {
+    throw files::InputError(file, files::Place::whole_file(), "a limit for at least one figure",
+                            "none");
+  }
+  return result;
+}
+
+void require_valid_budget(const std::filesystem::path& budget) { check_figures(budget, {}); }
+
+BudgetResult check_budget(const std::filesystem::path& budget,
+                          const std::filesystem::path& run_folder) {
+  return check_figures(budget, run_figures(read_run(run_folder, pipeline::RunPart::kFigures)));
+}
+
+BudgetResult check_budget(const std::filesystem::path& budget,
+                          const evaluation::Evaluation& evaluation) {
+  return check_figures(budget, accuracy_figures(evaluation));
+}
+
+void add_budget(const BudgetResult& result, Model& model) {
+  HtmlTable table("budget", "Budget " + result.file.filename().string(),
+                  {"figure", "value", "at most", "unit", "kept"});
+  for (const BudgetLine& line : result.lines) {
+    table.add_row({line.label, line.value ? Cell(*line.value) : Cell(kNone), line.limit, line.unit,
+                   line.passed() ? "pass" : "fail"});
+  }
+  model.add_table(table);
+  model.json["budget_kept"] = result.passed();
+}
+
+}  // namespace traverse::report
