@@ -32,7 +32,7 @@ target_compile_options(traverse_build_flags INTERFACE
   # expression templates, uninitialised values that are not there; all only in optimised builds.
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-stringop-overflow -Wno-maybe-uninitialized>
   # In a source that includes others GCC takes what is internal to them for a header's.
-  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage>
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage -Wno-array-bounds>
   # Clang refuses what touches a member without the mutex that guards it (parallel/mutex.hpp).
   $<$<CXX_COMPILER_ID:Clang>:-Wthread-safety>)
 if(TRAVERSE_SANITIZE)

@@ -13,7 +13,7 @@ namespace traverse::loam {
 namespace {
 
 constexpr std::size_t kLeafSize = 20;
-constexpr std::size_t kMostNeighbours = 16;
+constexpr std::size_t kMostMapNeighbours = 16;
 
 /// What nanoflann asks of a point set.
 struct PointSet {
@@ -121,8 +121,8 @@ void LocalMap::build_index() { index_ = std::make_unique<Index>(points_); }
 std::size_t LocalMap::nearest(const Eigen::Vector3d& query_map, double radius_m,
                               std::span<std::uint32_t> indices) const {
   if (!index_ || points_.empty()) return 0;
-  std::array<double, kMostNeighbours> squared_distances{};
-  const std::size_t wanted = std::min(indices.size(), kMostNeighbours);
+  std::array<double, kMostMapNeighbours> squared_distances{};
+  const std::size_t wanted = std::min(indices.size(), kMostMapNeighbours);
   nanoflann::KNNResultSet<double, std::uint32_t> found(wanted);
   found.init(indices.data(), squared_distances.data());
   squared_distances[wanted - 1] = radius_m * radius_m;  // prunes the search beyond the radius

@@ -14,7 +14,7 @@ namespace traverse::loam {
 
 namespace {
 
-constexpr std::size_t kChunk = 64;
+constexpr std::size_t kPointChunk = 64;
 constexpr double kLeastLine = 1e-3;  // metres between the two points of a line
 
 /// Finds the shape of each point in the last scan; keeps the points that have one, in order.
@@ -24,7 +24,7 @@ std::vector<Match> match_points(const lidar::TimedPoints& points,
                                 int threads, const FindShape& find_shape, const Assign& assign) {
   std::vector<std::optional<Match>> matches(points.size());
   parallel::Workers(threads).run_chunks(
-      points.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+      points.size(), kPointChunk, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
           const double s = clock.fraction(points.time[i]);
           const Eigen::Vector3d p_lidar = points.point(i);

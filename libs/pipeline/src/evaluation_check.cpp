@@ -19,9 +19,9 @@ using evaluation::TrajectoryFacts;
 using files::InputError;
 using files::Place;
 
-constexpr double kLargest = 1e100;    // squares and sums of such are still numbers
-constexpr double kSameLength = 1e-9;  // relative: the same sum of the same bits
-constexpr double kFarthest_m = 1e10;  // of a shift between two maps
+constexpr double kLargest = 1e100;        // squares and sums of such are still numbers
+constexpr double kSameLength = 1e-9;      // relative: the same sum of the same bits
+constexpr double kLargestError_m = 1e10;  // of a shift between two maps
 constexpr double kLargestScale = 1e6;
 
 class EvaluationCheck {
@@ -75,7 +75,7 @@ class EvaluationCheck {
 
   void require_alignment(const evaluation::Alignment& alignment) const {
     const bool is_near =
-        alignment.T_reference_estimate.translation.cwiseAbs().maxCoeff() <= kFarthest_m;
+        alignment.T_reference_estimate.translation.cwiseAbs().maxCoeff() <= kLargestError_m;
     const bool is_like = alignment.scale <= kLargestScale && alignment.scale >= 1 / kLargestScale;
     if (!is_near || !is_like) fail("alignment", "an alignment of two drives", "larger numbers");
   }
@@ -115,7 +115,7 @@ class EvaluationCheck {
       for (const double value : {segment.translation_percent, segment.rotation_deg_per_m}) {
         require_number("kitti.per_segment", value);
       }
-      if (!(segment.length_m >= 0 && segment.length_m <= kFarthest_m)) {
+      if (!(segment.length_m >= 0 && segment.length_m <= kLargestError_m)) {
         fail("kitti.per_segment.length_m", "lengths in metres",
              fmt::format("{}", segment.length_m));
       }

@@ -11,15 +11,15 @@ using files::JsonValue;
 
 namespace {
 
-constexpr double kMostMilliseconds = 1e12;  // thirty years
+constexpr double kLongestTime_ms = 1e12;  // thirty years
 constexpr double kMostMegabytes = 1e12;
-constexpr std::size_t kMostCounted = 1'000'000'000'000'000;  // doubles count so far, sums fit
+constexpr std::size_t kMostRecords = 1'000'000'000'000'000;  // doubles count so far, sums fit
 
 void require_texts(const JsonValue& json, std::initializer_list<const char*> keys) {
   for (const char* key : keys) static_cast<void>(json[key].text());
 }
 
-void require_count(const JsonValue& json, std::size_t most = kMostCounted) {
+void require_count(const JsonValue& json, std::size_t most = kMostRecords) {
   if (json.count() > most) throw json.error(fmt::format("a count of at most {}", most));
 }
 
@@ -61,15 +61,15 @@ void require_counts(const JsonValue& record) {
 void require_times(const JsonValue& record) {
   const JsonValue timing = record["timing_ms"];
   for (const char* key : {"frame_median", "frame_p95", "frame_max", "total"}) {
-    require_within(timing[key], 0, kMostMilliseconds);
+    require_within(timing[key], 0, kLongestTime_ms);
   }
   for_each_element(timing["stages"], [](const JsonValue& stage) {
     require_texts(stage, {"name"});
     for (const char* key : {"median", "mean", "p95", "max"}) {
-      require_within(stage[key], 0, kMostMilliseconds);
+      require_within(stage[key], 0, kLongestTime_ms);
     }
   });
-  require_within(record["wall_seconds"], 0, kMostMilliseconds / 1000);
+  require_within(record["wall_seconds"], 0, kLongestTime_ms / 1000);
   require_within(record["peak_memory_mb"], 0, kMostMegabytes);
   if (record["threads"].count() == 0) throw record["threads"].error("at least one thread");
   require_count(record["threads"], 1'000'000);

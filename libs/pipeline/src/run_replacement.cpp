@@ -25,7 +25,7 @@ namespace traverse::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
-using Found = FoundInPlace::Kind;
+using FoundFolder = FoundInPlace::Kind;
 
 constexpr std::uintmax_t kLargestRecord = 64'000'000;  // bytes; those of runs have 100 kB
 constexpr int kDeepestValue = 8;
@@ -178,27 +178,27 @@ const fs::path& exchange_names(const fs::path& made, const fs::path& place, cons
 FoundInPlace look_at_place(const fs::path& folder) {
   std::error_code failure;
   if (!is_there(folder)) return {};
-  if (!fs::is_directory(folder, failure)) return {Found::kForeign, "it is not a folder"};
+  if (!fs::is_directory(folder, failure)) return {FoundFolder::kForeign, "it is not a folder"};
   const bool empty = fs::is_empty(folder, failure);
-  if (failure) return {Found::kForeign, failure.message()};
+  if (failure) return {FoundFolder::kForeign, failure.message()};
   if (empty) return {};
   const RunFolder run{folder};
   const std::string status = status_in(run.record());
   if (status.empty()) {
-    return {Found::kForeign,
+    return {FoundFolder::kForeign,
             fmt::format("it is not an earlier run: it holds {} and no run.json of a run",
                         listed(folder))};
   }
   for (const fs::path& file : run.files()) {
     if (is_folder(file)) {
-      return {Found::kForeign, fmt::format("{} in it is a folder", file.filename().string())};
+      return {FoundFolder::kForeign, fmt::format("{} in it is a folder", file.filename().string())};
     }
   }
   if (is_there(run.images()) && !is_folder(run.images())) {
-    return {Found::kForeign, "images in it is not a folder"};
+    return {FoundFolder::kForeign, "images in it is not a folder"};
   }
   const bool has_poses = is_there(run.trajectory());
-  return {has_poses ? Found::kRun : Found::kNoPoses, "", status == "ok"};
+  return {has_poses ? FoundFolder::kRun : FoundFolder::kNoPoses, "", status == "ok"};
 }
 
 void carry_over_foreign(const fs::path& from, const fs::path& to) {
@@ -244,7 +244,7 @@ void replace_run(const fs::path& made, const fs::path& place, const fs::path& as
 
 void recover_replacement(const fs::path& made, const fs::path& place, const fs::path& aside) {
   if (!is_there(aside)) return;
-  if (look_at_place(place).kind == Found::kNothing) {
+  if (look_at_place(place).kind == FoundFolder::kNothing) {
     const bool is_complete = !status_in(RunFolder{made}.record()).empty();
     const fs::path& latest = is_complete ? made : aside;
     if (::rename(latest.c_str(), place.c_str()) != 0) fail(place, errno);

@@ -10,7 +10,7 @@ namespace traverse::render {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;  // radians
 constexpr double kChordError = 0.05;  // pixels between an arc and the chord drawn for it
 
 ShapeVertex vertex(Point p, Colour colour, double opacity = 1) {
@@ -59,7 +59,7 @@ class Ribbon {
   void add(LineCap cap) {
     const std::size_t count = vertices_.size();
     if (count == 1) {
-      if (cap == LineCap::kRound) add_end(0, 0, 2 * kPi);
+      if (cap == LineCap::kRound) add_end(0, 0, 2 * kHalfTurn);
       return;
     }
     for (std::size_t i = 1; i < count; ++i) add_segment(i - 1, i);
@@ -70,9 +70,9 @@ class Ribbon {
       add_join(count - 1, 0, 1);
     } else if (cap == LineCap::kRound) {
       const double first = direction(vertices_[0].point, vertices_[1].point);
-      add_end(0, first + kPi / 2, kPi);
+      add_end(0, first + kHalfTurn / 2, kHalfTurn);
       const double last = direction(vertices_[count - 2].point, vertices_[count - 1].point);
-      add_end(count - 1, last - kPi / 2, kPi);
+      add_end(count - 1, last - kHalfTurn / 2, kHalfTurn);
     }
   }
 
@@ -91,8 +91,8 @@ class Ribbon {
   void add_join(std::size_t before, std::size_t at, std::size_t after) {
     const double in = direction(vertices_[before].point, vertices_[at].point);
     const double out = direction(vertices_[at].point, vertices_[after].point);
-    const double turn = std::remainder(out - in, 2 * kPi);
-    const double outer_side = turn > 0 ? -kPi / 2 : kPi / 2;
+    const double turn = std::remainder(out - in, 2 * kHalfTurn);
+    const double outer_side = turn > 0 ? -kHalfTurn / 2 : kHalfTurn / 2;
     add_sector(vertices_[at].point, half_width_, in + outer_side, in + outer_side + turn,
                vertices_[at].colour, 1, triangles_);
   }
@@ -133,7 +133,7 @@ void tessellate(const Polygon& polygon, std::vector<ShapeVertex>& triangles) {
 
 void tessellate(const Disc& disc, std::vector<ShapeVertex>& triangles) {
   if (!finite(disc.centre) || !(disc.radius > 0)) return;
-  add_sector(disc.centre, disc.radius, 0, 2 * kPi, disc.fill, disc.opacity, triangles);
+  add_sector(disc.centre, disc.radius, 0, 2 * kHalfTurn, disc.fill, disc.opacity, triangles);
 }
 
 }  // namespace traverse::render

@@ -18,7 +18,7 @@ namespace traverse::render {
 namespace {
 
 constexpr double kHaloWidth = 0.28;  // of the text's size, both sides together
-constexpr double kHaloOpacity = 0.85;
+constexpr double kTextHaloOpacity = 0.85;
 constexpr double kPointsAPixel = 72.0 / 96.0;
 
 void set_colour(cairo_t* c, Colour colour, double opacity = 1) {
@@ -86,7 +86,7 @@ void draw(cairo_t* c, const Text& text) {
   if (text.halo) {
     cairo_move_to(c, left, text.anchor.y);
     cairo_text_path(c, utf8.c_str());
-    set_colour(c, *text.halo, kHaloOpacity);
+    set_colour(c, *text.halo, kTextHaloOpacity);
     cairo_set_line_width(c, kHaloWidth * text.size);
     cairo_stroke(c);
   }

@@ -6,8 +6,8 @@ namespace traverse::simulation {
 
 namespace {
 
-constexpr double kMargin = 60;   // metres of street before the start and after the end
-constexpr double kHalfRoad = 6;  // metres from the middle to the kerb
+constexpr double kWorldMargin = 60;  // metres of street before the start and after the end
+constexpr double kHalfRoad = 6;      // metres from the middle to the kerb
 
 class Builder {
  public:
@@ -59,9 +59,9 @@ class Builder {
 
 AnalyticScene street(double length_m, unsigned seed) {
   Builder builder(seed);
-  const double begin = -kMargin;
-  const double end = length_m + kMargin;
-  builder.add_ground(begin - kMargin, end + kMargin);
+  const double begin = -kWorldMargin;
+  const double end = length_m + kWorldMargin;
+  builder.add_ground(begin - kWorldMargin, end + kWorldMargin);
   for (const double side : {-1.0, 1.0}) {
     builder.add_houses(begin, end, side);
     builder.add_posts(begin, end, side);

@@ -11,7 +11,7 @@ namespace traverse::slam {
 
 namespace {
 
-constexpr std::size_t kSubmapsKept = 16;
+constexpr std::size_t kPlaceSubmapsKept = 16;
 /// Points that starts are told apart by: the place that most of them fall into is the same as with
 /// all of a scan's.
 constexpr std::size_t kFewPoints = 500;
@@ -175,7 +175,7 @@ std::shared_ptr<const MapPlaces::Surroundings> MapPlaces::surroundings(std::size
   made.own_support =
       support_a_point(register_in(made.submap, own, there, options_.registration), own);
   surroundings_.push_back(std::make_shared<const Surroundings>(std::move(made)));
-  if (surroundings_.size() > kSubmapsKept) surroundings_.pop_front();
+  if (surroundings_.size() > kPlaceSubmapsKept) surroundings_.pop_front();
   return surroundings_.back();
 }
 

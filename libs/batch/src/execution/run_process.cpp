@@ -26,7 +26,7 @@ namespace traverse::batch {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Cause = ProcessEnd::Cause;
+using EndCause = ProcessEnd::Cause;
 
 constexpr int kLookEvery_ms = 50;
 constexpr int kCannotStart = 127;  // as shells say it
@@ -124,20 +124,20 @@ ProcessEnd run_process(const ProcessStart& start, const std::atomic<bool>& stop)
 
   ProcessEnd end;
   end.peak_memory_mb = memory_mb(pid, "VmHWM:");
-  const auto end_it = [&](Cause cause) {
+  const auto end_it = [&](EndCause cause) {
     end.cause = cause;
     ::kill(-pid, SIGKILL);
   };
   pollfd ended{handle.number(), POLLIN, 0};
   while (::poll(&ended, 1, kLookEvery_ms) <= 0) {
-    if (end.cause != Cause::kItself) continue;  // it is dying
+    if (end.cause != EndCause::kItself) continue;  // it is dying
     end.peak_memory_mb = std::max(end.peak_memory_mb, memory_mb(pid, "VmHWM:"));
     if (stop) {
-      end_it(Cause::kStopped);
+      end_it(EndCause::kStopped);
     } else if (start.time_limit_s > 0 && elapsed() > start.time_limit_s) {
-      end_it(Cause::kTimeLimit);
+      end_it(EndCause::kTimeLimit);
     } else if (start.memory_limit_mb > 0 && memory_mb(pid, "VmRSS:") > start.memory_limit_mb) {
-      end_it(Cause::kMemoryLimit);
+      end_it(EndCause::kMemoryLimit);
     }
   }
   int status = 0;
@@ -154,9 +154,9 @@ ProcessEnd run_process(const ProcessStart& start, const std::atomic<bool>& stop)
   if (counted_is_programs || end.peak_memory_mb == 0) end.peak_memory_mb = counted_mb;
   if (WIFEXITED(status)) end.exit_status = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
-  if (end.cause == Cause::kItself && start.memory_limit_mb > 0 && counted_is_programs &&
+  if (end.cause == EndCause::kItself && start.memory_limit_mb > 0 && counted_is_programs &&
       counted_mb > start.memory_limit_mb) {
-    end.cause = Cause::kMemoryLimit;  // it came and went between two looks
+    end.cause = EndCause::kMemoryLimit;  // it came and went between two looks
   }
   return end;
 }

@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kTick{200};
+constexpr std::chrono::milliseconds kSlurmTick{200};
 constexpr std::chrono::seconds kLookAtRuns{2};
 constexpr std::chrono::seconds kLookAtQueue{5};
 /// A result may be seen late through a network file system that keeps folders in its cache.
@@ -153,7 +153,7 @@ class Collector {
       }
       if (queue_empty_since && Clock::now() - *queue_empty_since > kLastResults) break;
       events_.tick({});
-      std::this_thread::sleep_for(kTick);
+      std::this_thread::sleep_for(kSlurmTick);
     }
     look();
   }

@@ -31,9 +31,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kImu = "imu";
-constexpr const char* kGnss = "gnss";
-constexpr const char* kWheels = "wheels";
+constexpr const char* kImuTable = "imu";
+constexpr const char* kFixTable = "gnss";
+constexpr const char* kWheelTable = "wheels";
 
 /// The rows that can be used, side by side: one allocation a row would outweigh its numbers.
 class CsvRows {
@@ -139,7 +139,8 @@ class CsvRecording {
         records.skip("gyro without accelerometer within 50 ms", gyro.place(i));
         continue;
       }
-      records.add(sensors::ImuSample{stamp, kImu, unit * gyro.vector(i), *force}, gyro.place(i));
+      records.add(sensors::ImuSample{stamp, kImuTable, unit * gyro.vector(i), *force},
+                  gyro.place(i));
     }
   }
 
@@ -154,7 +155,7 @@ class CsvRecording {
       }
       sensors::GnssFix fix;
       fix.stamp = fixes.stamp(i);
-      fix.sensor = kGnss;
+      fix.sensor = kFixTable;
       fix.latitude_deg = values[0];
       fix.longitude_deg = values[1];
       fix.altitude_m = values[2];
@@ -172,7 +173,7 @@ class CsvRecording {
       for (const double speed : values) sum += speed;
       sensors::WheelOdometry reading;
       reading.stamp = speeds.stamp(i);
-      reading.sensor = kWheels;
+      reading.sensor = kWheelTable;
       reading.velocity = {sum / static_cast<double>(values.size()), 0, 0};
       records.add(reading, speeds.place(i));
     }
@@ -273,9 +274,9 @@ std::unique_ptr<Source> open_csv_folder(const fs::path& folder, const OpenOption
   recording.read_gnss();
   recording.read_wheels();
   const CsvStatements& csv = statements->csv;
-  for (const auto& [label, kind, file] : {std::tuple{kImu, SensorKind::kImu, csv.gyro.file},
-                                          {kGnss, SensorKind::kGnss, csv.gnss.file},
-                                          {kWheels, SensorKind::kWheels, csv.wheels.file}}) {
+  for (const auto& [label, kind, file] : {std::tuple{kImuTable, SensorKind::kImu, csv.gyro.file},
+                                          {kFixTable, SensorKind::kGnss, csv.gnss.file},
+                                          {kWheelTable, SensorKind::kWheels, csv.wheels.file}}) {
     if (file.empty()) continue;
     info.rig.sensors.push_back({label, kind, geometry::Pose3::identity(), std::nullopt});
     apply_vehicle(statements, info.rig.sensors.back());

@@ -32,9 +32,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kImu = "IMU";
-constexpr const char* kWheels = "ODOM";
-constexpr const char* kGnss = "GNSS";
+constexpr const char* kImuLine = "IMU";
+constexpr const char* kWheelLine = "ODOM";
+constexpr const char* kGnssLine = "GNSS";
 constexpr std::size_t kMostWords = 9;  // one more than a line can have
 constexpr std::int64_t kMostTicks = std::int64_t{1} << 60;
 
@@ -50,9 +50,9 @@ class LineParser {
 
   sensors::Measurement parse(std::string_view line) {
     const std::vector<std::string_view> words = files::split_words(line, kMostWords);
-    if (words[0] == kImu) return imu(numbers(words, 7));
-    if (words[0] == kWheels) return wheels(numbers(words, 3));
-    if (words[0] == kGnss) return gnss(numbers(words, 6));
+    if (words[0] == kImuLine) return imu(numbers(words, 7));
+    if (words[0] == kWheelLine) return wheels(numbers(words, 3));
+    if (words[0] == kGnssLine) return gnss(numbers(words, 6));
     throw BadLine("a line that does not begin with IMU, ODOM or GNSS");
   }
 
@@ -82,7 +82,7 @@ class LineParser {
 
   ImuSample imu(const std::vector<double>& v) const {
     const double unit = log_.angular_rate == AngularUnit::kDegrees ? std::numbers::pi / 180 : 1;
-    return {stamp(v[0], kImu), kImu, unit * Eigen::Vector3d(v[1], v[2], v[3]),
+    return {stamp(v[0], kImuLine), kImuLine, unit * Eigen::Vector3d(v[1], v[2], v[3]),
             Eigen::Vector3d(v[4], v[5], v[6])};
   }
 
@@ -92,8 +92,8 @@ class LineParser {
       throw BadLine("ODOM line with no such count");
     const WheelOdometry::Ticks told{std::llround(v[1]), std::llround(v[2])};
     WheelOdometry reading;
-    reading.stamp = stamp(v[0], kWheels);
-    reading.sensor = kWheels;
+    reading.stamp = stamp(v[0], kWheelLine);
+    reading.sensor = kWheelLine;
     if (log_.pulses == PulseCount::kCumulative) {
       reading.ticks = told;
     } else {
@@ -110,8 +110,8 @@ class LineParser {
     if (std::abs(v[1]) > 90 || std::abs(v[2]) > 360) throw BadLine("GNSS line with no such place");
     if (v[5] != 0 && v[5] != 1) throw BadLine("GNSS line whose heading_valid is not 0 or 1");
     GnssFix fix;
-    fix.stamp = stamp(v[0], kGnss);
-    fix.sensor = kGnss;
+    fix.stamp = stamp(v[0], kGnssLine);
+    fix.sensor = kGnssLine;
     fix.latitude_deg = v[1];
     fix.longitude_deg = v[2];
     fix.altitude_m = v[3];
@@ -124,9 +124,9 @@ class LineParser {
 };
 
 void mount(RecordingInfo& info, const Statements& statements, const ListedRecords& records) {
-  for (const auto& stream : {std::pair{kImu, SensorKind::kImu},
-                             {kGnss, SensorKind::kGnss},
-                             {kWheels, SensorKind::kWheels}}) {
+  for (const auto& stream : {std::pair{kImuLine, SensorKind::kImu},
+                             {kGnssLine, SensorKind::kGnss},
+                             {kWheelLine, SensorKind::kWheels}}) {
     if (!records.has(stream.first)) continue;
     info.rig.sensors.push_back(
         {stream.first, stream.second, geometry::Pose3::identity(), std::nullopt});
@@ -143,7 +143,7 @@ bool is_navigation_log(const fs::path& file) {
     for (std::size_t i = 0; i < kLinesLookedAt && reader.next(); ++i) {
       const auto words = files::split_words(reader.line(), kMostWords);
       if (words.empty()) continue;
-      if (words[0] == kImu || words[0] == kWheels || words[0] == kGnss) return true;
+      if (words[0] == kImuLine || words[0] == kWheelLine || words[0] == kGnssLine) return true;
       if (words[0].size() > 100) return false;
     }
   } catch (const InputError&) {

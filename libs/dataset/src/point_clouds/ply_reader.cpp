@@ -17,7 +17,7 @@ using files::Place;
 namespace {
 
 constexpr std::size_t kMostProperties = std::size_t{1} << 12;  // of all elements
-constexpr std::size_t kMostWords = 6;                          // one more than a line can have
+constexpr std::size_t kMostHeaderWords = 6;                    // one more than a line can have
 
 enum class PlyFormat { kAscii, kLittleEndian, kBigEndian };
 
@@ -95,7 +95,7 @@ PlyHeader read_ply_header(FileCursor& file) {
   std::size_t lines = 0;  // of elements and properties
   file.next_line();       // "ply"
   while (const auto line = file.next_line()) {
-    const std::vector<std::string_view> words = files::split_words(*line, kMostWords);
+    const std::vector<std::string_view> words = files::split_words(*line, kMostHeaderWords);
     if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
     if (words[0] == "end_header") return header;
     if (++lines > kMostProperties) {

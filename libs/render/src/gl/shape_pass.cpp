@@ -32,7 +32,7 @@ void main() {
 )";
 
 /// OpenGL takes offsets into a buffer as pointers.
-const void* offset(std::size_t bytes) {
+const void* buffer_offset(std::size_t bytes) {
   return reinterpret_cast<const void*>(bytes);  // NOLINT(performance-no-int-to-ptr)
 }
 
@@ -47,9 +47,9 @@ ShapePass::ShapePass(const Functions& gl)
   gl_.GenBuffers(1, &buffer_);
   gl_.BindVertexArray(vertex_array_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, buffer_);
-  gl_.VertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, sizeof(ShapeVertex), offset(0));
+  gl_.VertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, sizeof(ShapeVertex), buffer_offset(0));
   gl_.VertexAttribPointer(1, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(ShapeVertex),
-                          offset(offsetof(ShapeVertex, red)));
+                          buffer_offset(offsetof(ShapeVertex, red)));
   gl_.EnableVertexAttribArray(0);
   gl_.EnableVertexAttribArray(1);
 }

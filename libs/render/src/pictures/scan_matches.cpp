@@ -24,8 +24,9 @@ namespace traverse::render {
 
 namespace {
 
-constexpr double kShown_m = 50;        // to each side of the way: farther, a scan is thin
-constexpr double kStrayPercent = 2;    // of the matches, at each end of each axis, may be cut off
+constexpr double kShown_m = 50;  // to each side of the way: farther, a scan is thin
+constexpr double kMatchStrayPercent =
+    2;                                 // of the matches, at each end of each axis, may be cut off
 constexpr double kLongResidual = 95;   // percent of the residuals are shorter
 constexpr double kLongOnPaper = 0.03;  // of the picture's width, what such a one is drawn as
 
@@ -69,8 +70,8 @@ std::vector<float> framed(const RegisteredScan& registered,
 /// kShown_m around the way.
 Range shown(std::span<const float> values, const Range& way) {
   const Range most{way.low - kShown_m, way.high + kShown_m};
-  const double low = percentile(values, kStrayPercent);
-  const double high = percentile(values, 100 - kStrayPercent);
+  const double low = percentile(values, kMatchStrayPercent);
+  const double high = percentile(values, 100 - kMatchStrayPercent);
   if (!std::isfinite(low) || !std::isfinite(high)) return most;
   return way.joined({std::max(low, most.low), std::min(high, most.high)}).at_least(2).padded(0.04);
 }

@@ -20,8 +20,8 @@ namespace traverse::render {
 
 namespace {
 
-constexpr double kGapOfMedian = 5;
-constexpr double kHeadRoom = 0.06;
+constexpr double kSeriesGapOfMedian = 5;
+constexpr double kSeriesHeadRoom = 0.06;
 
 void check(const TimeSeries& data) {
   for (const Panel& panel : data.panels) {
@@ -52,8 +52,8 @@ Range y_range(const Panel& panel) {
   }
   if (panel.level) values.push_back(panel.level->value);
   const Range range = Range::of(values);
-  if (range.low < 0) return range.padded(kHeadRoom);
-  return {0, range.high > 0 ? range.high * (1 + kHeadRoom) : 1};
+  if (range.low < 0) return range.padded(kSeriesHeadRoom);
+  return {0, range.high > 0 ? range.high * (1 + kSeriesHeadRoom) : 1};
 }
 
 Colour shade_hue(std::size_t kind) { return kind == 0 ? palette::kOrange : palette::kPurple; }
@@ -82,7 +82,7 @@ void draw_spans(Canvas& canvas, const PlotArea& area, const std::vector<ShadedSp
 std::vector<Point> points_of(const Series& series, const PlotArea& area) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < series.x.size(); ++i) steps.push_back(series.x[i] - series.x[i - 1]);
-  const double longest = kGapOfMedian * percentile(steps, 50);
+  const double longest = kSeriesGapOfMedian * percentile(steps, 50);
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::vector<Point> points;
   for (std::size_t i = 0; i < series.x.size(); ++i) {

@@ -10,9 +10,9 @@ namespace traverse::render {
 namespace {
 
 constexpr double kLeastExtent = 1;  // metres: a vehicle that stands still is not magnified
-constexpr double kRoom = 0.06;      // of the range, on each side
+constexpr double kLineRoom = 0.06;  // of the range, on each side
 
-Range with_room(Range range) { return range.at_least(kLeastExtent).padded(kRoom); }
+Range with_room(Range range) { return range.at_least(kLeastExtent).padded(kLineRoom); }
 
 }  // namespace
 

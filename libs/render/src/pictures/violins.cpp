@@ -17,10 +17,10 @@ namespace traverse::render {
 
 namespace {
 
-constexpr double kTailPercent = 99.5;  // what lies beyond may be cut off
-constexpr double kLongTail = 1.5;      // if the axis would grow by more than this factor
-constexpr int kSteps = 240;            // of the outline
-constexpr double kHalfViolin = 0.42;   // of the row's height
+constexpr double kViolinTailPercent = 99.5;  // what lies beyond may be cut off
+constexpr double kLongViolinTail = 1.5;      // if the axis would grow by more than this factor
+constexpr int kSteps = 240;                  // of the outline
+constexpr double kHalfViolin = 0.42;         // of the row's height
 constexpr double kHalfBox = 0.10;
 constexpr std::size_t kMostKernels = 4000;
 
@@ -33,8 +33,9 @@ std::vector<double> finite_ascending(std::span<const double> values) {
 }
 
 Range shown_range(const std::vector<double>& ascending) {
-  const double high = percentile(ascending, kTailPercent);
-  const double most = ascending.back() > kLongTail * high && high > 0 ? high : ascending.back();
+  const double high = percentile(ascending, kViolinTailPercent);
+  const double most =
+      ascending.back() > kLongViolinTail * high && high > 0 ? high : ascending.back();
   const double least = std::min(0.0, ascending.front());
   return most > least ? Range{least, 1.02 * most} : Range{least, least + 1};
 }

@@ -13,7 +13,7 @@ namespace traverse::render {
 namespace {
 
 constexpr int kBands = 256;
-constexpr int kMostTicks = 8;
+constexpr int kMostBarTicks = 8;
 constexpr const char* kClipNote = "ends at 2nd and 98th percentile";
 
 double bar_width(const Sizes& sizes) { return 1.3 * sizes.tick; }
@@ -57,7 +57,7 @@ void draw_ends(Canvas& canvas, const ColourScale& scale, const Rect& bar) {
 void draw_numbers(Canvas& canvas, const ColourScale& scale, const Rect& bar) {
   const Sizes& sizes = canvas.sizes();
   const int most = static_cast<int>(bar.height() / (3 * sizes.tick));
-  const Ticks ticks = nice_ticks(scale.shown, std::clamp(most, 2, kMostTicks));
+  const Ticks ticks = nice_ticks(scale.shown, std::clamp(most, 2, kMostBarTicks));
   const std::vector<std::string> labels = tick_labels(ticks, Notation::for_range(scale.shown));
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const double share = (ticks.values[i] - scale.shown.low) / scale.shown.span();
@@ -82,7 +82,7 @@ std::vector<std::string> wrapped_notes(const Canvas& canvas, const ColourBar& ba
 
 double colour_bar_width(const Canvas& canvas, const ColourBar& bar) {
   const Sizes& sizes = canvas.sizes();
-  const Ticks ticks = nice_ticks(bar.scale.shown, kMostTicks);
+  const Ticks ticks = nice_ticks(bar.scale.shown, kMostBarTicks);
   double widest = 0;
   for (const std::string& label : tick_labels(ticks, Notation::for_range(bar.scale.shown))) {
     widest = std::max(widest, canvas.width_of(label, sizes.tick));

@@ -10,7 +10,7 @@ namespace traverse::render {
 namespace {
 
 constexpr double kRounding = 1e-9;  // relative: 0.1 * 3 is a multiple of 0.1
-constexpr double kMostTicks = 1000;
+constexpr double kMostTicksAnywhere = 1000;
 constexpr double kLargeCoordinate = 10'000;
 
 int decimals_of(double step) {
@@ -40,7 +40,7 @@ Ticks ticks_of_step(Range range, double step) {
   const double first = std::ceil(range.low / step - kRounding);
   const double last = std::floor(range.high / step + kRounding);
   // Beyond 2^53 a double knows no next whole number.
-  if (!(last - first < kMostTicks) || std::max(std::abs(first), std::abs(last)) > 0x1p53) {
+  if (!(last - first < kMostTicksAnywhere) || std::max(std::abs(first), std::abs(last)) > 0x1p53) {
     return ticks;
   }
   // The multiples, not a running sum: 0.1 added ten times is not 1.

@@ -16,7 +16,6 @@ namespace traverse::report {
 namespace {
 
 using evaluation::Comparison;
-using evaluation::Figure;
 using evaluation::Relation;
 
 RunFigure figure(std::string_view id, double value, std::string how, std::string no_interval) {
@@ -36,7 +35,7 @@ RunFigure figure(std::string_view id, double value, std::string how, std::string
 
 /// With the interval of `values`, which are in the order of time.
 RunFigure figure_of_values(std::string_view id, double value, std::string how,
-                           const std::vector<double>& values, Figure kind) {
+                           const std::vector<double>& values, evaluation::Figure kind) {
   RunFigure result = figure(id, value, std::move(how), {});
   result.interval = evaluation::bootstrap_interval(values, kind);
   if (!result.interval) {
@@ -66,7 +65,8 @@ void add_ape(const Comparison& comparison, std::vector<RunFigure>& figures) {
     const std::string how = fmt::format(
         "rmse, {}, {} pairs", evaluation::describe(comparison.alignment, ape->statistics.count),
         ape->statistics.count);
-    figures.push_back(figure_of_values(id, ape->statistics.rmse, how, ape->values, Figure::kRmse));
+    figures.push_back(
+        figure_of_values(id, ape->statistics.rmse, how, ape->values, evaluation::Figure::kRmse));
   }
 }
 
@@ -81,15 +81,15 @@ void add_relative(const Comparison& comparison, std::vector<RunFigure>& figures)
     const std::string how = fmt::format("mean of {} of 100 to 800 m, {} frame",
                                         plural(kitti->segments.size(), "segment"), kitti->frame);
     figures.push_back(figure_of_values("kitti_translation_percent", kitti->translation_percent, how,
-                                       translation, Figure::kMean));
+                                       translation, evaluation::Figure::kMean));
     figures.push_back(figure_of_values("kitti_rotation_deg_per_100m",
                                        100 * kitti->rotation_deg_per_m, how, rotation,
-                                       Figure::kMean));
+                                       evaluation::Figure::kMean));
   }
   if (const auto* rpe = find_rpe(comparison, Relation::kTranslation, 10)) {
     figures.push_back(figure_of_values("rpe_10_frames_rmse_m", rpe->statistics.rmse,
                                        fmt::format("rmse, {} pairs", rpe->statistics.count),
-                                       rpe->values, Figure::kRmse));
+                                       rpe->values, evaluation::Figure::kRmse));
   }
 }
 
@@ -112,7 +112,7 @@ void add_cost(const RunData& run, std::vector<RunFigure>& figures) {
   figures.push_back(figure_of_values(
       "frame_median_ms", timing.at("frame_median"),
       fmt::format("median, {} at 95 %, {}", short_number(timing.at("frame_p95").get<double>()), on),
-      run.frames.column("total_ms"), Figure::kMedian));
+      run.frames.column("total_ms"), evaluation::Figure::kMedian));
   figures.push_back(
       figure("frame_p95_ms", timing.at("frame_p95"), "95th percentile, " + on, single));
   figures.push_back(figure("frame_max_ms", timing.at("frame_max"), "the slowest, " + on, single));

@@ -62,12 +62,11 @@ kainjow::mustache::data HtmlTable::data() const {
 }
 
 nlohmann::ordered_json HtmlTable::json() const {
-  using Json = nlohmann::ordered_json;
-  Json rows = Json::array();
-  Json marked = Json::array();
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  nlohmann::ordered_json marked = nlohmann::ordered_json::array();
   for (const Row& row : rows_) {
     if (row.marked) marked.push_back(rows.size());
-    Json cells = Json::array();
+    nlohmann::ordered_json cells = nlohmann::ordered_json::array();
     for (const Cell& cell : row.cells) cells.push_back(cell.value);
     rows.push_back(std::move(cells));
   }

@@ -20,8 +20,8 @@ using geometry::Pose3;
 
 namespace {
 
-constexpr std::size_t kControlEvery = 5;  ///< samples of the speed plan: 0.1 s
-constexpr double kSlowestPace = 0.85;     ///< of other drivers, shares of the route's speed
+constexpr std::size_t kTiltControlEvery = 5;  ///< samples of the speed plan: 0.1 s
+constexpr double kSlowestPace = 0.85;         ///< of other drivers, shares of the route's speed
 constexpr double kFastestPace = 1.1;
 
 /// A damped oscillator that follows a demand, driven step by step.
@@ -129,7 +129,7 @@ VehicleMotion::VehicleMotion(const RouteSettings& route, const SuspensionSetting
     const double speed = (after - before) / (2 * dt);
     const double acceleration = (after - 2 * s[i] + before) / (dt * dt);
     const double lateral = speed * speed * route_.curvature(s[i]);
-    if (i % kControlEvery == 0) {
+    if (i % kTiltControlEvery == 0) {
       roll_bump = bump(generator) * speed / route.speed_mps;
       pitch_bump = bump(generator) * speed / route.speed_mps;
     }
@@ -137,13 +137,13 @@ VehicleMotion::VehicleMotion(const RouteSettings& route, const SuspensionSetting
         roll.follow((suspension.roll_deg_per_mps2 * lateral + roll_bump) * geometry::kDegree, dt);
     const double pitch_now = pitch.follow(
         (-suspension.pitch_deg_per_mps2 * acceleration + pitch_bump) * geometry::kDegree, dt);
-    if (i % kControlEvery != 0) continue;
+    if (i % kTiltControlEvery != 0) continue;
     progress_controls.push_back(s[i]);
     roll_controls.push_back(roll_now);
     pitch_controls.push_back(pitch_now);
   }
   duration_s_ = dt * static_cast<double>(s.size() - 1);
-  constexpr double step = dt * static_cast<double>(kControlEvery);
+  constexpr double step = dt * static_cast<double>(kTiltControlEvery);
   const auto ends = UniformSpline::Ends::kConstant;
   progress_ = UniformSpline(std::move(progress_controls), step, ends);
   roll_ = UniformSpline(std::move(roll_controls), step, ends);

@@ -14,7 +14,7 @@ namespace traverse::simulation {
 namespace {
 
 constexpr std::size_t kPacket = 8;
-constexpr double kNearest = 1e-4;  ///< metres: a ray does not meet the surface it starts on
+constexpr double kNearestHit = 1e-4;  ///< metres: a ray does not meet the surface it starts on
 /// Metres by which Embree's single precision may be off; a plane that is met edge-on may seem to be
 /// elsewhere.
 constexpr double kRounding = 0.01;
@@ -117,7 +117,7 @@ void RayCaster::cast(std::span<const Ray> rays, double reach_m, std::span<Surfac
       packet.ray.dir_x[i] = static_cast<float>(ray.direction.x());
       packet.ray.dir_y[i] = static_cast<float>(ray.direction.y());
       packet.ray.dir_z[i] = static_cast<float>(ray.direction.z());
-      packet.ray.tnear[i] = static_cast<float>(kNearest);
+      packet.ray.tnear[i] = static_cast<float>(kNearestHit);
       packet.ray.tfar[i] = static_cast<float>(reach_m);
       packet.ray.time[i] = 0;
       packet.ray.mask[i] = ~0U;

@@ -11,7 +11,7 @@ namespace traverse::simulation {
 
 namespace {
 
-constexpr double kKerb = 0.12;
+constexpr double kTownKerb = 0.12;
 constexpr double kSideStreet = 3.2;  ///< metres, half width
 
 /// Streets that leave the main one: straight on at its corners, and across the middle of long legs.
@@ -54,7 +54,7 @@ void add_terrace(Site& site, const Street& street, double half_width, double sid
     }
     site.plan.take(centre, middle.heading, size);
     const double yaw = middle.heading + (side > 0 ? 0 : std::numbers::pi);
-    site.mesh.add(house, upright(site.on_ground(middle.beside(side * front), kKerb), yaw));
+    site.mesh.add(house, upright(site.on_ground(middle.beside(side * front), kTownKerb), yaw));
     s += plan.width + 0.01;
   }
 }
@@ -80,7 +80,7 @@ void add_houses(Site& site, const Street& street, double half_width, double side
     site.plan.take(centre, middle.heading, size + Eigen::Vector2d(0.3, 1));
     const double yaw = middle.heading + (side > 0 ? 0 : std::numbers::pi);
     const Eigen::Vector2d door = middle.beside(side * (front + setback));
-    site.mesh.add(make_house(plan, random), upright(site.on_ground(door, kKerb), yaw));
+    site.mesh.add(make_house(plan, random), upright(site.on_ground(door, kTownKerb), yaw));
     s += plan.width;
     if (!random.chance(0.35)) continue;
     const double gap = random.uniform(3, 8);
@@ -89,7 +89,7 @@ void add_houses(Site& site, const Street& street, double half_width, double side
     if (site.plan.is_free(p, at.heading, {gap, 1})) {
       site.plan.take(p, at.heading, {gap, 1});
       site.mesh.add(make_hedge(gap, random.uniform(1, 1.8), random),
-                    upright(site.on_ground(p, kKerb), at.heading));
+                    upright(site.on_ground(p, kTownKerb), at.heading));
     }
     s += gap;
   }
@@ -128,13 +128,13 @@ void line_kerb(Site& site, const Street& street, unsigned number, double half_wi
     const Eigen::Vector2d p = at.beside(on_pavement);
     if (s > next_lamp) {
       const double yaw = at.heading + (side > 0 ? std::numbers::pi : 0);
-      site.mesh.add(lamp, upright(site.on_ground(p, kKerb), yaw));
+      site.mesh.add(lamp, upright(site.on_ground(p, kTownKerb), yaw));
       next_lamp = s + 25;
     } else if (random.chance(0.55)) {
-      plant(site, greenery.trees, p, 0.4, kKerb, 0.7, 1.1);
+      plant(site, greenery.trees, p, 0.4, kTownKerb, 0.7, 1.1);
     } else if (random.chance(0.5)) {
       site.mesh.add(random.chance(0.6) ? make_sign(random) : make_bin(),
-                    upright(site.on_ground(p, kKerb), at.heading));
+                    upright(site.on_ground(p, kTownKerb), at.heading));
     }
   }
   for (double s = 6; s < street.length_m() - 6; s += random.uniform(5.6, 13) / density) {
@@ -155,9 +155,9 @@ void add_gardens(Site& site, const Greenery& greenery) {
     const double east = site.random.uniform(0, 1);
     const Eigen::Vector2d p = site.plan.least() + size.cwiseProduct(Eigen::Vector2d(east, north));
     const double dice = site.random.uniform(0, 1);
-    if (dice < 0.3) plant(site, greenery.trees, p, 5, kKerb);
-    if (dice > 0.3 && dice < 0.4) plant(site, greenery.conifers, p, 4, kKerb);
-    if (dice > 0.4) plant(site, greenery.bushes, p, 1.5, kKerb);
+    if (dice < 0.3) plant(site, greenery.trees, p, 5, kTownKerb);
+    if (dice > 0.3 && dice < 0.4) plant(site, greenery.conifers, p, 4, kTownKerb);
+    if (dice > 0.4) plant(site, greenery.bushes, p, 1.5, kTownKerb);
   }
 }
 
@@ -179,7 +179,7 @@ void build_town(Site& site) {
   for (std::size_t i = 0; i < streets.size(); ++i) {
     site.plan.add_road(streets[i], width(i), static_cast<unsigned>(i % 32));
   }
-  build_ground(site, Material::kGrass, 1, kKerb - 0.03);
+  build_ground(site, Material::kGrass, 1, kTownKerb - 0.03);
 
   const Greenery greenery(site.random);
   const Assortment cars(10, [&](std::size_t) { return make_car(site.random); });
