@@ -51,9 +51,9 @@ std::vector<Match> match_points(const lidar::TimedPoints& points, const LocalMap
 void bind(config::Binder& b, AssociationOptions& o) {
   using config::Range;
   b.integer("neighbours", o.neighbours, Range::between(3, kMostNeighbours),
-            "map points that make a line or a plane");
+            "map points that a line or plane is fitted to");
   b.number("search_radius_m", o.search_radius_m, Range::positive(),
-           "all of them are within this distance of the point");
+           "largest distance of these neighbours from the point");
   bind(b, o.neighbourhood);
 }
 

@@ -176,24 +176,25 @@ class Picker {
 
 void bind(config::Binder& b, FeatureOptions& o) {
   using config::Range;
-  b.integer("sectors", o.sectors, Range::between(1, 64), "parts a scan line is cut into");
+  b.integer("sectors", o.sectors, Range::between(1, 64), "sectors per scan line");
   b.integer("sharp_per_sector", o.sharp_per_sector, Range::non_negative(),
             "edge points of largest curvature");
   b.integer("less_sharp_per_sector", o.less_sharp_per_sector, Range::non_negative(),
-            "edge points in all");
+            "edge points per sector, sharp ones included");
   b.integer("flat_per_sector", o.flat_per_sector, Range::non_negative(),
             "planar points of smallest curvature");
   b.number("edge_curvature", o.edge_curvature, Range::non_negative(),
-           "least curvature of an edge point");
+           "smallest curvature of an edge point");
   b.number("planar_curvature", o.planar_curvature, Range::non_negative(),
            "largest curvature of a planar point");
   b.number("noise_m", o.noise_m, Range::non_negative(),
-           "curvature times range below this is noise, not shape");
-  b.number("break_m", o.break_m, Range::non_negative(), "step that ends a surface, constant part");
+           "curvature times range below this is taken for noise");
+  b.number("break_m", o.break_m, Range::non_negative(),
+           "range step that ends a surface, constant part");
   b.number("break_per_m", o.break_per_m, Range::non_negative(),
-           "step that ends a surface, share of the range");
+           "range step that ends a surface, per metre of range");
   b.number("grazing_step_per_m", o.grazing_step_per_m, Range::positive(),
-           "steps on both sides above this share of the range: the beam grazes the surface");
+           "range steps on both sides above this, per metre of range, mark a grazing beam");
 }
 
 Features extract_features(const lidar::ScanLines& lines, const FeatureOptions& options) {

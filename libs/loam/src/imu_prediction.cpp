@@ -20,9 +20,9 @@ Eigen::Vector3d rate_at(const sensors::ImuSample& before, const sensors::ImuSamp
 
 void bind(config::Binder& b, ImuOptions& o) {
   using config::Range;
-  b.flag("use", o.use, "predict rotations from the angular rates of the recording's IMU, if any");
+  b.flag("use", o.use, "predict rotations from the recording's IMU, if there is one");
   b.number("longest_gap_s", o.longest_gap_s, Range::positive(),
-           "without samples that is bridged; longer: constant velocity");
+           "longest gap between samples that is bridged; beyond it, constant velocity");
 }
 
 ImuPrediction::ImuPrediction(const ImuOptions& options) : options_(options) {}

@@ -44,9 +44,9 @@ void bind(config::Binder& b, NeighbourhoodOptions& o) {
   b.number("line_flatness", o.line_flatness, Range::between(1, 1e6),
            "a line's second eigenvalue is at most this times the smallest");
   b.number("line_thickness_m", o.line_thickness_m, Range::positive(),
-           "no neighbour is farther from its line");
+           "largest distance of a neighbour from its line");
   b.number("plane_thickness_m", o.plane_thickness_m, Range::positive(),
-           "no neighbour is farther from its plane");
+           "largest distance of a neighbour from its plane");
   b.number("plane_spread", o.plane_spread, Range::between(0, 1),
            "a plane's second eigenvalue is at least this times the largest");
 }

@@ -75,14 +75,15 @@ void bind(config::Binder& b, SolverOptions& o) {
   b.choice("derivative", o.derivative, optimization::kDerivativeNames,
            "formulas, dual numbers, or central differences");
   b.choice("perturbation", o.perturbation, optimization::kPerturbationNames,
-           "side on which rotations are moved: R Exp(d), or Exp(d) R");
+           "side of the rotation's perturbation: R Exp(d), or Exp(d) R");
   b.integer("iterations", o.iterations, Range::between(1, 1000),
             "Levenberg-Marquardt steps in one solve");
-  b.number("huber_m", o.huber_m, Range::positive(), "residuals beyond count linearly");
+  b.number("huber_m", o.huber_m, Range::positive(),
+           "Huber threshold: larger residuals count linearly");
   b.integer("min_matches", o.min_matches, Range::between(6, 1e6),
-            "with fewer matches the prediction stands");
+            "with fewer matches the prediction is kept");
   b.number("min_eigenvalue", o.min_eigenvalue, Range::between(0, 1),
-           "directions below are degenerate and keep their prediction");
+           "directions with a smaller eigenvalue are degenerate and keep the prediction");
 }
 
 SolveResult solve_pose(const Matches& matches, const geometry::Pose3& guess_T_map_lidar,

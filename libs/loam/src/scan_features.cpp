@@ -37,9 +37,9 @@ bool is_planar(lidar::FeatureClass c) {
 void bind(config::Binder& b, ThinningOptions& o) {
   using config::Range;
   b.number("edge_voxel_m", o.edge_voxel_m, Range::positive(),
-           "one edge point a cube takes part in registration");
+           "voxel size: one edge point per voxel is registered");
   b.number("planar_voxel_m", o.planar_voxel_m, Range::positive(),
-           "one planar point a cube takes part in registration");
+           "voxel size: one planar point per voxel is registered");
 }
 
 lidar::TimedPoints thinned(const lidar::TimedPoints& points, double voxel_m) {

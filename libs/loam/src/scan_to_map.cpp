@@ -21,10 +21,11 @@ std::vector<Eigen::Vector3d> in_map(const lidar::TimedPoints& points,
 
 void bind(config::Binder& b, MapOptions& o) {
   using config::Range;
-  b.number("edge_voxel_m", o.edge_voxel_m, Range::positive(), "one edge point a cube is kept");
+  b.number("edge_voxel_m", o.edge_voxel_m, Range::positive(),
+           "voxel size: one edge point per voxel is kept");
   b.number("planar_voxel_m", o.planar_voxel_m, Range::positive(),
-           "one planar point a cube is kept");
-  b.number("radius_m", o.radius_m, Range::positive(), "of the local map");
+           "voxel size: one planar point per voxel is kept");
+  b.number("radius_m", o.radius_m, Range::positive(), "radius of the local map");
 }
 
 ScanToMap::ScanToMap(const ScanToMapOptions& options)

@@ -25,16 +25,18 @@ ScanToMapOptions scan_to_map_options(const ScanToMapOdometryOptions& options, bo
 void bind(config::Binder& b, ScanToMapOdometryOptions& o) {
   using config::Range;
   b.flag("deskew", o.deskew, "undo the motion within a sweep, unless the recording did");
-  b.group("features", "curvature and classes", [&](config::Binder& g) { bind(g, o.features); });
-  b.group("thinning", "the registration set", [&](config::Binder& g) { bind(g, o.thinning); });
+  b.group("features", "curvature and classes of points",
+          [&](config::Binder& g) { bind(g, o.features); });
+  b.group("thinning", "points that are registered",
+          [&](config::Binder& g) { bind(g, o.thinning); });
   b.group("map", "the local map", [&](config::Binder& g) { bind(g, o.map); });
-  b.group("association", "features to lines and planes of the map",
+  b.group("association", "association of features with lines and planes of the map",
           [&](config::Binder& g) { bind(g, o.association); });
-  b.group("solver", "the pose", [&](config::Binder& g) { bind(g, o.solver); });
+  b.group("solver", "solver of the pose", [&](config::Binder& g) { bind(g, o.solver); });
   b.integer("registration_steps", o.registration_steps, Range::between(1, 100),
-            "associations, with a solve each, of a frame");
+            "rounds of association and solution per frame");
   b.integer("first_registration_steps", o.first_registration_steps, Range::between(1, 100),
-            "of the second frame; one fewer each frame");
+            "rounds for the second frame; one fewer for each further frame");
   b.group("start", "search for the initial speed", [&](config::Binder& g) { bind(g, o.start); });
 }
 

@@ -82,23 +82,23 @@ void bind(config::Binder& b, ScanToScanOptions& o) {
   static constexpr std::array<std::pair<std::string_view, SweepMotion>, 2> kSweepMotions{
       {{"per_point", SweepMotion::kPerPoint}, {"deskew", SweepMotion::kDeskew}}};
   b.choice("sweep_motion", o.sweep_motion, kSweepMotions,
-           "per_point: the solver moves each point by its share of the motion it looks for; "
-           "deskew: before each association, by the motion known by then");
-  b.integer("steps", o.steps, Range::between(1, 100), "associations, with a solve each");
+           "per_point: the solver moves each point by its share of the unknown motion; deskew: "
+           "points are moved before each association, by the motion estimated so far");
+  b.integer("steps", o.steps, Range::between(1, 100), "rounds of association and solution");
   b.number("search_radius_m", o.search_radius_m, Range::positive(),
-           "partners in the last scan are nearer than this");
+           "largest distance to a match in the previous scan");
   b.integer("adjacent_lines", o.adjacent_lines, Range::between(1, 1000),
             "scan lines up to this far away are adjacent");
   b.number("planar_voxel_m", o.planar_voxel_m, Range::positive(),
-           "one planar point of each line a cube is kept of the last scan");
+           "voxel size: one planar point per scan line and voxel of the previous scan is kept");
   b.number("min_baseline_m", o.min_baseline_m, Range::non_negative(),
-           "between the two points of one scan line that help to make a plane");
+           "smallest distance between the two points of one scan line that define a plane");
   b.number("min_triangle_sine", o.min_triangle_sine, Range::between(0, 1),
-           "three points whose sides meet at a smaller angle do not make a plane");
+           "smallest sine of the angle between the sides of three points that define a plane");
   b.number("huber_m", o.huber_m, Range::positive(),
-           "residuals beyond count linearly, in place of solver.huber_m");
+           "Huber threshold of scan-to-scan residuals, instead of solver.huber_m");
   b.number("min_eigenvalue", o.min_eigenvalue, Range::between(0, 1),
-           "directions below are degenerate and keep their prediction, in place of the solver's");
+           "directions with a smaller eigenvalue are degenerate, instead of the solver's limit");
 }
 
 Matches associate_scans(const lidar::TimedPoints& sharp, const lidar::TimedPoints& flat,

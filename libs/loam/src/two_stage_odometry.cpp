@@ -47,17 +47,19 @@ std::vector<double> record_of(const FirstStage& stage) {
 void bind(config::Binder& b, TwoStageOdometryOptions& o) {
   using config::Range;
   b.flag("deskew", o.deskew, "undo the motion within a sweep, unless the recording did");
-  b.group("features", "curvature and classes", [&](config::Binder& g) { bind(g, o.features); });
+  b.group("features", "curvature and classes of points",
+          [&](config::Binder& g) { bind(g, o.features); });
   b.group("odometry", "from scan to scan, the first stage",
           [&](config::Binder& g) { bind(g, o.odometry); });
-  b.group("thinning", "the registration set of the second stage",
+  b.group("thinning", "points that the second stage registers",
           [&](config::Binder& g) { bind(g, o.thinning); });
   b.group("map", "the local map of the second stage", [&](config::Binder& g) { bind(g, o.map); });
-  b.group("association", "features to lines and planes of the map",
+  b.group("association", "association of features with lines and planes of the map",
           [&](config::Binder& g) { bind(g, o.association); });
-  b.group("solver", "the pose, in both stages", [&](config::Binder& g) { bind(g, o.solver); });
+  b.group("solver", "solver of the pose, in both stages",
+          [&](config::Binder& g) { bind(g, o.solver); });
   b.integer("registration_steps", o.registration_steps, Range::between(0, 100),
-            "associations in the map, with a solve each; 0: scan-to-scan odometry alone");
+            "rounds of association and solution in the map; 0: scan-to-scan odometry alone");
   b.group("imu", "prediction of rotations", [&](config::Binder& g) { bind(g, o.imu); });
   b.group("start", "search for the initial speed", [&](config::Binder& g) { bind(g, o.start); });
 }

@@ -78,16 +78,18 @@ struct FreeSpace::Content {
 
 void bind(config::Binder& b, FreeSpaceOptions& o) {
   using config::Range;
-  b.number("voxel_m", o.voxel_m, Range::between(0.02, 10), "edge of the cubes that are judged");
+  b.number("voxel_m", o.voxel_m, Range::between(0.02, 10), "edge of a voxel");
   b.number("max_range_m", o.max_range_m, Range::between(0.1, 1000),
-           "keyframes farther away do not judge");
+           "keyframes farther away do not vote");
   b.number("ray_radius_m", o.ray_radius_m, Range::positive(),
-           "a ray that passes so near sees through, or hits");
-  b.number("min_gap_m", o.min_gap_m, Range::positive(),
-           "and sees through if it ends so far behind, more at grazing incidence");
+           "distance up to which a ray passes through a voxel, or hits it");
+  b.number(
+      "min_gap_m", o.min_gap_m, Range::positive(),
+      "distance behind the voxel from which on a ray passes through, more at grazing incidence");
   b.integer("min_votes", o.min_votes, Range::between(1, 1e6),
-            "keyframes that must have seen through");
-  b.number("majority", o.majority, Range::positive(), "so many times those that hit");
+            "keyframes that must have seen through a voxel");
+  b.number("majority", o.majority, Range::positive(),
+           "ratio of keyframes that saw through to those that hit");
 }
 
 FreeSpace::FreeSpace(std::span<const MapKeyframe> keyframes, const FreeSpaceOptions& options,

@@ -91,12 +91,14 @@ std::vector<std::string> files_of_earlier_map(const MapFolder& folder) {
 
 void bind(config::Binder& b, MapOptions& o) {
   b.number("voxel_m", o.voxel_m, config::Range::between(0.005, 10),
-           "of the points in a cube of this edge one is kept");
+           "voxel size: one point per voxel is kept");
   b.flag("attributes", o.attributes, "time, ring and keyframe of each point beside its intensity");
-  b.flag("remove_moving", o.remove_moving, "leave out what rays of other keyframes pass through");
-  b.group("free_space", "what counts as moving", [&](config::Binder& g) { bind(g, o.free_space); });
+  b.flag("remove_moving", o.remove_moving,
+         "leave out points that rays of other keyframes pass through");
+  b.group("free_space", "detection of moving points",
+          [&](config::Binder& g) { bind(g, o.free_space); });
   b.flag("with_grid", o.with_grid, "an occupancy grid beside the points");
-  b.group("grid", "of the occupancy grid", [&](config::Binder& g) { bind(g, o.grid); });
+  b.group("grid", "settings of the occupancy grid", [&](config::Binder& g) { bind(g, o.grid); });
 }
 
 MapSummary write_map(const MapFolder& folder, std::vector<MapKeyframe> keyframes,

@@ -118,8 +118,9 @@ void bind(config::Binder& b, OccupancyOptions& o) {
   b.number("max_range_m", o.max_range_m, Range::positive(),
            "points farther from the sensor do not count");
   b.number("min_height_m", o.min_height_m, Range::non_negative(),
-           "above the ground, from which on something is an obstacle");
-  b.number("max_height_m", o.max_height_m, Range::positive(), "up to which it is one");
+           "height above the ground from which on points are obstacles");
+  b.number("max_height_m", o.max_height_m, Range::positive(),
+           "height above the ground up to which points are obstacles");
 }
 
 OccupancyGrid::OccupancyGrid(std::span<const MapKeyframe> keyframes,

@@ -38,7 +38,7 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 }  // namespace
 
 void bind(config::Binder& b, LocalizationOptions& o) {
-  b.text("map", o.map, "keyframes.simplemap of a run to be followed in; empty: none");
+  b.text("map", o.map, "keyframes.simplemap of the run in whose map to localize");
   b.numbers("start", o.start, "x, y, z [m] and yaw [deg] at the first scan; empty: search");
   bind(b, o.search);
 }

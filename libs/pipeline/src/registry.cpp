@@ -43,7 +43,7 @@ std::vector<std::string> read_preset(const config::Document& document, Settings&
   std::string description;
   return config::read(document, [&](config::Binder& b) {
     b.text("estimator", estimator, "the algorithm");
-    b.text("description", description, "what the preset is");
+    b.text("description", description, "one line about the preset");
     bind(b, settings);
   });
 }
@@ -62,7 +62,7 @@ struct LidarSettings {
 
 void bind(config::Binder& b, LidarSettings& s) {
   s.odometry->present(b);
-  b.group("slam", "loops over the odometry", [&](config::Binder& g) { bind(g, s.slam); });
+  b.group("slam", "loop closure over the odometry", [&](config::Binder& g) { bind(g, s.slam); });
 }
 
 std::unique_ptr<Estimator> make_lidar(const LidarSettings& settings,

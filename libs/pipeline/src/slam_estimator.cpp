@@ -29,17 +29,17 @@ void bind(config::Binder& b, SlamEstimatorOptions& o) {
   using config::Range;
   b.flag("use", o.use, "close loops; off: odometry alone");
   b.group("gnss", "fixes of the recording's first receiver", [&](config::Binder& g) {
-    g.flag("use", o.gnss.use, "let fixes hold the map, where there are any");
+    g.flag("use", o.gnss.use, "constrain the map by GNSS fixes, where there are any");
     g.number("sigma_m", o.gnss.sigma_m, Range::positive(),
-             "of a fix that does not tell its covariance");
+             "standard deviation of a fix without covariance");
     g.number("min_sigma_m", o.gnss.min_sigma_m, Range::positive(),
              "smallest standard deviation of a fix that is used");
   });
-  b.group("gravity", "up by the recording's first IMU", [&](config::Binder& g) {
-    g.flag("use", o.gravity.use, "let gravity hold roll and pitch, where there is an IMU");
+  b.group("gravity", "direction of gravity by the recording's first IMU", [&](config::Binder& g) {
+    g.flag("use", o.gravity.use, "constrain roll and pitch by gravity, where there is an IMU");
     bind(g, o.gravity.finder);
   });
-  b.group("localize", "follow the recording in a given map instead",
+  b.group("localize", "localize in a given map instead",
           [&](config::Binder& g) { bind(g, o.localization); });
   bind(b, o.slam);
 }

@@ -13,17 +13,19 @@ namespace {
 void bind(config::Binder& b, LidarFiring& f) {
   b.number("period_us", f.period_us, Range::non_negative(),
            "from one firing of all beams to the next; 0 if unknown");
-  b.numbers("times_us", f.times_us, "of each beam after the firing's start, ring 0 first");
+  b.numbers("times_us", f.times_us,
+            "time of each beam after the start of the firing, ring 0 first");
   b.numbers("azimuth_offsets_deg", f.azimuth_offsets_deg,
-            "of each beam, counterclockwise, ring 0 first");
+            "azimuth offset of each beam, counterclockwise, ring 0 first");
 }
 
 void bind(config::Binder& b, LidarNoise& n) {
   b.number("range_m", n.range_m, Range::between(0, 1), "standard deviation of a range");
   b.number("resolution_m", n.resolution_m, Range::between(0, 1), "ranges are multiples of this");
   b.number("reach_at_10_percent_m", n.reach_at_10_percent_m, Range::positive(),
-           "farthest surface of 10 % reflectivity that is seen");
-  b.number("dropout_share", n.dropout_share, Range::between(0, 1), "of returns that are lost");
+           "range of a surface of 10 % reflectivity");
+  b.number("dropout_share", n.dropout_share, Range::between(0, 1),
+           "share of returns that are lost");
   b.number("intensity_share", n.intensity_share, Range::between(0, 1),
            "standard deviation of an intensity, relative");
 }
@@ -42,7 +44,7 @@ void bind(config::Binder& b, LidarProfile& p) {
   static constexpr std::array<std::pair<std::string_view, Rotation>, 2> kRotations{
       {{"clockwise", Rotation::kClockwise}, {"counterclockwise", Rotation::kCounterclockwise}}};
 
-  b.text("name", p.name, "what reports call this sensor");
+  b.text("name", p.name, "name of this sensor in reports");
   b.integer("rings", p.rings, Range::between(0, 1024), "number of beams; 0 if unknown");
   b.number("min_range_m", p.min_range_m, Range::non_negative(), "nearer points are dropped");
   b.number("max_range_m", p.max_range_m, Range::positive(), "farther points are dropped");
@@ -61,9 +63,9 @@ void bind(config::Binder& b, LidarProfile& p) {
            "added to the elevation of every point");
   b.number("pole_depth", p.pole_depth, Range::between(0, 1),
            "from the axis of a round pole to the mean of its returns, in radii");
-  b.group("firing", "when and where the beams fire, for the simulator",
+  b.group("firing", "firing times and directions of the beams, for the simulator",
           [&](config::Binder& group) { bind(group, p.firing); });
-  b.group("noise", "how well it measures, for the simulator",
+  b.group("noise", "noise of the measurements, for the simulator",
           [&](config::Binder& group) { bind(group, p.noise); });
 }
 

@@ -54,7 +54,7 @@ void bind(config::Binder& b, WorldDescription& w) {
     b.group(key, meaning, [&](config::Binder& g) { bind(g, settings); });
   };
   b.text("name", w.name, "for titles");
-  b.text("description", w.description, "one line");
+  b.text("description", w.description, "one line about the world");
   b.text("sensor", w.sensor, "the lidar, if the command line names none");
   b.integer("seed", w.seed, Range::between(0, 1e15), "of the place, the road and all noise");
   b.integer("drive_seed", w.drive_seed, Range::between(-1, 1e15),

@@ -81,17 +81,17 @@ class Average {
 void bind(config::Binder& b, GravityOptions& o) {
   using config::Range;
   b.number("window_s", o.window_s, Range::between(0.3, 60),
-           "of driving that one direction of up is measured on");
+           "duration of driving on which one direction of gravity is measured");
   b.number("odometry_sigma_m", o.odometry_sigma_m, Range::positive(),
-           "of odometry's positions in it, each frame for itself");
+           "standard deviation of the odometry positions in it, each frame for itself");
   b.number("acceleration_share", o.acceleration_share, Range::non_negative(),
-           "of the vehicle's acceleration what is believed to remain");
+           "share of the vehicle's acceleration that is assumed to remain");
   b.number("min_sigma_deg", o.min_sigma_deg, Range::positive(),
            "smallest standard deviation of a direction that is used");
   b.number("max_gap_s", o.max_gap_s, Range::positive(),
-           "between samples; slower ones do not see how a vehicle shakes");
+           "longest gap between samples; slower IMUs do not see a vehicle's vibration");
   b.number("max_off_m_s2", o.max_off_m_s2, Range::positive(),
-           "of the length found to that of gravity");
+           "largest difference between the measured length and that of gravity");
 }
 
 GravityFinder::GravityFinder(const GravityOptions& options, const geometry::Pose3& T_lidar_imu)

@@ -65,21 +65,22 @@ void deskew(voxel_map::SweepPoints& points, const geometry::Twist& velocity) {
 void bind(config::Binder& b, StepNoiseOptions& o) {
   using config::Range;
   b.number("inflation", o.inflation, Range::positive(),
-           "of the covariance from the solver's information");
+           "factor on the covariance from the solver's information");
   b.number("drift_m_per_sqrt_m", o.drift_m_per_sqrt_m, Range::positive(),
-           "a random walk beside it, per path length");
+           "random walk in addition, metres per square root of path length");
   b.number("drift_deg_per_sqrt_m", o.drift_deg_per_sqrt_m, Range::positive(),
-           "a random walk of the attitude");
+           "random walk of the attitude, degrees per square root of path length");
   b.number("unregistered_m", o.unregistered_m, Range::non_negative(),
-           "more for every frame whose pose is only predicted");
-  b.number("unregistered_deg", o.unregistered_deg, Range::non_negative(), "the same of attitude");
+           "standard deviation added for every frame whose pose is only predicted");
+  b.number("unregistered_deg", o.unregistered_deg, Range::non_negative(),
+           "the same for the attitude");
 }
 
 void bind(config::Binder& b, KeyframeOptions& o) {
   using config::Range;
-  b.number("spacing_m", o.spacing_m, Range::positive(), "a keyframe after so much motion");
-  b.number("spacing_deg", o.spacing_deg, Range::positive(), "or so much rotation");
-  b.number("cube_m", o.cube_m, Range::positive(), "of its map points one a cube is kept");
+  b.number("spacing_m", o.spacing_m, Range::positive(), "distance between keyframes");
+  b.number("spacing_deg", o.spacing_deg, Range::positive(), "rotation between keyframes");
+  b.number("cube_m", o.cube_m, Range::positive(), "voxel size: one map point per voxel is kept");
   b.group("noise", "of the motion between keyframes", [&](config::Binder& g) { bind(g, o.noise); });
   b.group("sampling", "points that keyframes are registered by",
           [&](config::Binder& g) { bind(g, o.sampling); });

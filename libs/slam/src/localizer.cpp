@@ -33,25 +33,24 @@ void bind(config::Binder& b, LocalizerOptions& o) {
   b.integer("ring_keys", o.ring_keys, Range::between(1, 100000),
             "nearest ring keys whose Scan Contexts the global search compares");
   b.integer("places", o.places, Range::between(1, 1000),
-            "of the map that a scan of the global search is tried at");
+            "places of the map at which the global search tries a scan");
   b.number("search_radius_m", o.search_radius_m, Range::non_negative(),
-           "around each of them, and around a given start");
+           "radius of the search around each place and around a given start");
   b.number("search_half_turn_deg", o.search_half_turn_deg, Range::between(0, 180),
-           "to either side of a given start");
+           "half width of the search in heading around a given start");
   b.number("min_in_common", o.checks.min_in_common, Range::between(0, 1),
            "matches of a scan, as a share of what the map's own keyframe has there");
   b.number("max_residual_m", o.checks.max_residual_m, Range::positive(), "rms of the matches");
   b.number("max_rival", o.max_rival, Range::between(0, 1),
            "matches of the next best place, as a share of the best one's");
-  b.number("agreement_m", o.agreement_m, Range::positive(),
-           "two scans tell the same place up to this");
-  b.number("agreement_deg", o.agreement_deg, Range::positive(), "and this");
+  b.number("agreement_m", o.agreement_m, Range::positive(), "agreement of two scans in position");
+  b.number("agreement_deg", o.agreement_deg, Range::positive(), "agreement in rotation");
   b.number("slip_m", o.slip_m, Range::non_negative(),
-           "around odometry's pose, where a scan that does not fit there is searched for");
+           "radius around the odometry pose in which a scan that does not fit is searched for");
   b.integer("witnesses_within", o.witnesses_within, Range::between(1, 10000),
-            "scans before that may confirm a place");
+            "earlier scans that may confirm a place");
   b.integer("lost_after", o.lost_after, Range::between(1, 1e6),
-            "scans in a row that do not fit: the place is lost");
+            "scans in a row that do not fit, after which the position is lost");
 }
 
 Localizer::Localizer(std::vector<MapKeyframe> map, const SlamOptions& options,

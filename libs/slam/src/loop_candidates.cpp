@@ -16,14 +16,14 @@ constexpr double kRounding_m = 0.01;  // of positions as floats, far from the or
 void bind(config::Binder& b, CandidateOptions& o) {
   using config::Range;
   b.number("min_way_m", o.min_way_m, Range::positive(),
-           "driven since; nearer keyframes are the present surroundings");
+           "path length since the candidate; nearer keyframes are the present surroundings");
   b.number("reach_m", o.reach_m, Range::positive(), "keyframes farther apart make no loop");
   b.number("sigmas", o.sigmas, Range::non_negative(),
-           "of the predicted position that reach_m grows by");
+           "standard deviations of the predicted position by which reach_m grows");
   b.integer("ring_keys", o.ring_keys, Range::between(1, 1000),
             "nearest ring keys whose Scan Contexts are compared");
   b.number("max_descriptor_distance", o.max_descriptor_distance, Range::between(0, 1),
-           "of two Scan Contexts that look like one place");
+           "largest distance between the Scan Contexts of one place");
   b.group("context", "the Scan Context of a keyframe",
           [&](config::Binder& g) { bind(g, o.context); });
 }

@@ -47,14 +47,16 @@ AlignmentOptions only_on_surfaces(AlignmentOptions options, double gate_m) {
 
 void bind(config::Binder& b, LoopRegistrationOptions& o) {
   using config::Range;
-  b.group("alignment", "of a keyframe in a submap",
+  b.group("alignment", "registration of a keyframe in a submap",
           [&](config::Binder& g) { bind(g, o.alignment); });
   b.number("start_spacing_m", o.start_spacing_m, Range::positive(),
-           "between the starts of the search");
-  b.number("start_spacing_deg", o.start_spacing_deg, Range::positive(), "between their headings");
-  b.integer("max_starts", o.max_starts, Range::between(1, 1e6), "of one registration");
+           "distance between the starts of the search");
+  b.number("start_spacing_deg", o.start_spacing_deg, Range::positive(),
+           "angle between their headings");
+  b.integer("max_starts", o.max_starts, Range::between(1, 1e6),
+            "starts of one registration at most");
   b.number("on_surface_m", o.on_surface_m, Range::positive(),
-           "a point so near a plane or line lies on it");
+           "distance from a plane or line up to which a point lies on it");
 }
 
 std::vector<geometry::Pose3> starts_around(const geometry::Pose3& guess, const SearchRegion& region,

@@ -8,9 +8,10 @@ namespace traverse::slam {
 
 void bind(config::Binder& b, ScanContextOptions& o) {
   using config::Range;
-  b.integer("rings", o.rings, Range::between(4, 200), "of the ground plane around the sensor");
-  b.integer("sectors", o.sectors, Range::between(8, 720), "of each ring");
-  b.number("reach_m", o.reach_m, Range::positive(), "of the outermost ring");
+  b.integer("rings", o.rings, Range::between(4, 200),
+            "rings of the ground plane around the sensor");
+  b.integer("sectors", o.sectors, Range::between(8, 720), "sectors of each ring");
+  b.number("reach_m", o.reach_m, Range::positive(), "radius of the outermost ring");
   b.number("floor_m", o.floor_m, Range::any(),
            "added to heights, so that the ground below the sensor is near zero");
 }

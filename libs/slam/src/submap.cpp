@@ -7,8 +7,9 @@ namespace traverse::slam {
 void bind(config::Binder& b, SubmapOptions& o) {
   using config::Range;
   b.integer("keyframes_before", o.keyframes_before, Range::between(0, 1000),
-            "of its centre that make a submap");
-  b.integer("keyframes_after", o.keyframes_after, Range::between(0, 1000), "and after it");
+            "keyframes before the centre of a submap");
+  b.integer("keyframes_after", o.keyframes_after, Range::between(0, 1000),
+            "keyframes after the centre of a submap");
   b.group("map", "planes and lines of a submap", [&](config::Binder& g) { bind(g, o.map); });
 }
 

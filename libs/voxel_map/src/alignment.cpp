@@ -70,19 +70,19 @@ Solved solve(CondensedCost& cost, const geometry::Pose3& guess, int iterations) 
 
 void bind(config::Binder& b, AlignmentOptions& o) {
   using config::Range;
-  b.integer("rounds", o.rounds, Range::between(1, 100), "of association and solve at most");
+  b.integer("rounds", o.rounds, Range::between(1, 100),
+            "rounds of association and solution at most");
   b.integer("iterations", o.iterations, Range::between(1, 100),
             "Levenberg-Marquardt steps in a round");
-  b.number("gate_m", o.gate_m, Range::positive(), "farther planes and lines do not match");
+  b.number("gate_m", o.gate_m, Range::positive(), "largest distance of a match");
   b.number("narrow_gate_m", o.narrow_gate_m, Range::positive(),
            "the gate halves each round down to this");
-  b.number("converged_m", o.converged_m, Range::non_negative(), "a smaller step is the last one");
-  b.number("converged_deg", o.converged_deg, Range::non_negative(),
-           "a smaller turn is the last one");
+  b.number("converged_m", o.converged_m, Range::non_negative(), "step at convergence");
+  b.number("converged_deg", o.converged_deg, Range::non_negative(), "rotation at convergence");
   b.integer("min_matches", o.min_matches, Range::between(6, 1e6),
-            "with fewer matches the prediction stands");
+            "with fewer matches the prediction is kept");
   b.number("min_eigenvalue", o.min_eigenvalue, Range::between(0, 1),
-           "directions below are degenerate and keep their prediction");
+           "directions with a smaller eigenvalue are degenerate and keep the prediction");
   bind(b, o.matches);
   bind(b, o.objective);
 }

@@ -5,8 +5,9 @@ namespace traverse::voxel_map {
 void bind(config::Binder& b, LineMapOptions& o) {
   using config::Range;
   b.number("cell_m", o.cell_m, Range::between(0.3, 5), "edge of a cell");
-  b.integer("min_points", o.min_points, Range::between(3, 1000), "a cell needs to have a line");
-  b.integer("min_frames", o.min_frames, Range::between(1, 100), "in which a line was seen");
+  b.integer("min_points", o.min_points, Range::between(3, 1000),
+            "points that a cell needs for a line");
+  b.integer("min_frames", o.min_frames, Range::between(1, 100), "frames in which a line was seen");
   b.number("refit_growth", o.refit_growth, Range::between(1, 10),
            "a line is fitted again when its points have grown by this factor");
   b.number("slenderness", o.fit.slenderness, Range::between(0, 1),

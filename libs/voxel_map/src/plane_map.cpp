@@ -35,7 +35,8 @@ void bind(config::Binder& b, PlaneMapOptions& o) {
   // Cell numbers wrap after 2048 cells; a cell of 0.3 m and the radius below 150 m stay within.
   b.number("cell_m", o.cell_m, Range::between(0.3, 5),
            "edge of a cell; its parent is 3 times as wide");
-  b.integer("min_points", o.min_points, Range::between(4, 1000), "a cell needs to have a plane");
+  b.integer("min_points", o.min_points, Range::between(4, 1000),
+            "points that a cell needs for a plane");
   b.number("refit_growth", o.refit_growth, Range::between(1, 10),
            "a plane is fitted again when its points have grown by this factor");
   b.number("flatness", o.fit.flatness, Range::between(0, 1),

@@ -121,19 +121,19 @@ void bind(config::Binder& b, SamplingOptions& o) {
            "farther points are not planar points");
   b.number("break_m", o.break_m, Range::positive(), "neighbours farther apart are on two surfaces");
   b.number("break_per_m", o.break_per_m, Range::non_negative(),
-           "added to break_m a metre of range");
+           "added to break_m per metre of range");
   b.number("spacing_m", o.spacing_m, Range::non_negative(), "between surface points along a ring");
   b.number("flatness_m", o.flatness_m, Range::positive(),
-           "a planar point is nearer to the mean of its neighbours");
+           "largest distance of a planar point from the mean of its neighbours");
   b.number("flatness_per_m", o.flatness_per_m, Range::non_negative(),
-           "added to flatness_m a metre of range");
+           "added to flatness_m per metre of range");
   b.number("thinning_m", o.thinning_m, Range::between(0.05, 5),
-           "one planar point a cube of this edge is registered");
-  b.number("boundary_m", o.boundary_m, Range::positive(),
-           "an edge point's neighbour lies farther away by this");
-  b.number("edge_max_range_m", o.edge_max_range_m, Range::between(1, 150), "of edge points");
+           "voxel size: one planar point per voxel is registered");
+  b.number("boundary_m", o.boundary_m, Range::positive(), "range step at an edge point");
+  b.number("edge_max_range_m", o.edge_max_range_m, Range::between(1, 150),
+           "largest range of edge points");
   b.number("pole_width_m", o.pole_width_m, Range::non_negative(),
-           "narrower with background on both sides: a pole");
+           "largest width of a pole with background on both sides");
 }
 
 void RowSamples::reserve(std::size_t points) {

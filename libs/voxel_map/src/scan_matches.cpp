@@ -76,7 +76,7 @@ double robust_scale(const std::vector<float>& normalised) {
 void bind(config::Binder& b, MatchOptions& o) {
   using config::Range;
   b.number("noise_m", o.noise_m, Range::positive(), "standard deviation of a residual, near");
-  b.number("noise_per_m", o.noise_per_m, Range::non_negative(), "added a metre of range");
+  b.number("noise_per_m", o.noise_per_m, Range::non_negative(), "added per metre of range");
   b.number("line_noise_m", o.line_noise_m, Range::non_negative(), "added for lines");
 }
 

@@ -179,9 +179,9 @@ void bind(config::Binder& b, ObjectiveOptions& o) {
   using config::Range;
   b.number("kernel", o.kernel, Range::positive(),
            "width of the Geman-McClure kernel in robust standard deviations");
-  b.number("min_scale", o.min_scale, Range::positive(),
-           "the robust standard deviation is not taken smaller");
-  b.number("line_weight", o.line_weight, Range::non_negative(), "of a line match; a plane's is 1");
+  b.number("min_scale", o.min_scale, Range::positive(), "floor of the robust standard deviation");
+  b.number("line_weight", o.line_weight, Range::non_negative(),
+           "weight of a line match; that of a plane match is 1");
 }
 
 geometry::Twist MotionModel::velocity_at(const geometry::Pose3& T_map_lidar) const {

@@ -75,11 +75,12 @@ class Follower {
 void bind(config::Binder& b, StartSearchOptions& o) {
   using config::Range;
   b.integer("scans", o.scans, Range::between(0, 50),
-            "held back to find the initial speed; below 2: start from rest");
+            "scans that are held back to find the initial speed; below 2: start from rest");
   b.number("slowest_mps", o.slowest_mps, Range::between(-1000, 1000),
-           "first hypothesis of the forward speed");
-  b.number("fastest_mps", o.fastest_mps, Range::between(-1000, 1000), "last hypothesis");
-  b.number("step_mps", o.step_mps, Range::between(0.01, 1000), "between hypotheses");
+           "lowest hypothesis of the forward speed");
+  b.number("fastest_mps", o.fastest_mps, Range::between(-1000, 1000),
+           "highest hypothesis of the forward speed");
+  b.number("step_mps", o.step_mps, Range::between(0.01, 1000), "step between hypotheses");
 }
 
 geometry::Twist find_initial_velocity(std::span<const SweepSample> first_scans,

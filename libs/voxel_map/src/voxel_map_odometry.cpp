@@ -23,12 +23,13 @@ constexpr Effort kFirstFrames{4, 2};
 void bind(config::Binder& b, VoxelMapOdometryOptions& o) {
   using config::Range;
   b.flag("deskew", o.deskew, "undo the motion within a sweep, unless the recording did");
-  b.group("sampling", "points kept of a scan", [&](config::Binder& g) { bind(g, o.sampling); });
+  b.group("sampling", "sampling of a scan's points",
+          [&](config::Binder& g) { bind(g, o.sampling); });
   b.group("map", "the local map of planes and lines", [&](config::Binder& g) { bind(g, o.map); });
-  b.group("alignment", "the pose", [&](config::Binder& g) { bind(g, o.alignment); });
+  b.group("alignment", "solver of the pose", [&](config::Binder& g) { bind(g, o.alignment); });
   b.group("start", "search for the initial speed", [&](config::Binder& g) { bind(g, o.start); });
   b.integer("first_frames", o.first_frames, Range::between(0, 1000),
-            "registered with a wider gate and more rounds");
+            "frames at the start that are registered with a wider gate and more rounds");
 }
 
 VoxelMapOdometry::VoxelMapOdometry(const VoxelMapOdometryOptions& options,

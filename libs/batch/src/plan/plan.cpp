@@ -29,12 +29,12 @@ using config::Range;
 constexpr double kLeastMemory_mb = 100;
 
 void bind(Binder& b, RunLimits& limits) {
-  b.number("time_s", limits.time_s, Range::between(0.1, 1e7), "of a run, seconds");
+  b.number("time_s", limits.time_s, Range::between(0.1, 1e7), "longest duration of a run, seconds");
   b.number("memory_mb", limits.memory_mb, Range::between(kLeastMemory_mb, 1e7),
-           "resident, of a run");
+           "resident memory of a run, MB");
   b.integer("threads", limits.threads, Range::between(1, 256), "of a run");
   b.integer("attempts", limits.attempts, Range::between(1, 100),
-            "of a run that something outside killed");
+            "tries of a run that was killed from outside");
 }
 
 void check_metric(const std::string& name, const config::Origin& origin) {
@@ -78,9 +78,9 @@ SlurmOptions read_slurm(const Document& document, std::vector<std::string>& note
       section,
       [&](Binder& b) {
         b.integer("runs_per_task", slurm.runs_per_task, Range::between(1, 1e6),
-                  "runs that a task of the array does, one after the other");
+                  "runs of one array task, one after the other");
         b.integer("max_at_once", slurm.max_at_once, Range::between(1, 1e6),
-                  "tasks of the array that run at one time");
+                  "array tasks that run at the same time");
       },
       kOptions);
   const Document options = section.child("options");
@@ -104,7 +104,7 @@ void read_settings(const Document& document, Plan& plan) {
   config::read(
       document,
       [&](Binder& b) {
-        b.text("description", plan.description, "what the batch is for");
+        b.text("description", plan.description, "purpose of the batch");
         b.integer("repeats", plan.repeats, Range::between(1, 10000), "runs of each combination");
         b.flag("reports", plan.reports, "pictures and report.html of each run");
         b.group("limits", "of each run", [&](Binder& limits) { bind(limits, plan.limits); });

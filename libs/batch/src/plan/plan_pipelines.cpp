@@ -68,7 +68,7 @@ PlannedPipeline read_entry(const Document& document, const std::vector<GridAxis>
   config::read(
       document,
       [&](config::Binder& b) {
-        b.text("preset", pipeline.preset, "of `traverse pipelines`, or a YAML file");
+        b.text("preset", pipeline.preset, "a name of `traverse pipelines`, or a YAML file");
         b.text("name", pipeline.name, "in tables");
       },
       kOthers);

@@ -77,12 +77,14 @@ Entry read_entry(const Document& document, const fs::path& folder) {
       document,
       [&](Binder& b) {
         b.text("path", entry.path, "of the recording, or a glob");
-        b.text("simulate", entry.world, "what `traverse simulate` is to make");
-        b.numbers("seeds", entry.seeds, "one generated recording a seed");
+        b.text("simulate", entry.world,
+               "arguments of `traverse simulate`, which makes the recording");
+        b.numbers("seeds", entry.seeds, "one generated recording per seed");
         b.text("name", recording.name, "in tables");
         b.text("config", config_file, "statements about the recording");
-        b.text("reference", reference, "trajectory to compare with");
-        b.word("reference_frame", recording.reference_frame, kFrames, "what moves along it");
+        b.text("reference", reference, "reference trajectory");
+        b.word("reference_frame", recording.reference_frame, kFrames,
+               "coordinate frame whose poses it holds");
         b.integer("first", recording.first, config::Range::non_negative(), "first frame");
         b.integer("last", recording.last, config::Range::non_negative(), "last frame, included");
       },

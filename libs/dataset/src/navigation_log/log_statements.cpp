@@ -15,9 +15,10 @@ constexpr std::array<std::pair<std::string_view, PulseCount>, 2> kPulseCounts{
 void bind_file(Binder& b, CsvColumns& columns) {
   b.text("file", columns.file, "CSV file with a header line, relative to the folder");
   b.text("time", columns.time, "column of the time");
-  b.text("columns", columns.columns, "names of the columns, blanks between");
+  b.text("columns", columns.columns, "names of the columns, separated by blanks");
   b.number("period_s", columns.period_s, Range::non_negative(),
-           "of the sensor's own clock, where readings are stamped when they arrive; 0: not so");
+           "sampling period of the sensor's clock, where readings are stamped on arrival; 0: "
+           "stamps are the sensor's");
 }
 
 void bind_columns(Binder& b, std::string_view key, CsvColumns& columns, std::string_view which) {
@@ -27,9 +28,10 @@ void bind_columns(Binder& b, std::string_view key, CsvColumns& columns, std::str
 }  // namespace
 
 void bind(Binder& b, LogStatements& log) {
-  b.choice("angular_rate", log.angular_rate, kAngularUnits, "unit of the gyro, a second");
-  b.choice("pulses", log.pulses, kPulseCounts, "since the line before, or since some beginning");
-  b.number("time_unit_s", log.time_unit_s, Range::positive(), "seconds that a 1 in the time means");
+  b.choice("angular_rate", log.angular_rate, kAngularUnits, "unit of the angular rate, per second");
+  b.choice("pulses", log.pulses, kPulseCounts, "counted since the previous line, or cumulative");
+  b.number("time_unit_s", log.time_unit_s, Range::positive(),
+           "seconds per unit of the time column");
 }
 
 void bind(Binder& b, CsvStatements& csv) {
@@ -42,8 +44,9 @@ void bind(Binder& b, CsvStatements& csv) {
     group.numbers("roll_pitch_yaw_deg", csv.reference_roll_pitch_yaw_deg,
                   "of the quaternion's axes in the body: about x, then y, then z, degrees");
   });
-  b.choice("angular_rate", csv.angular_rate, kAngularUnits, "unit of the gyro, a second");
-  b.number("time_unit_s", csv.time_unit_s, Range::positive(), "seconds that a 1 in the time means");
+  b.choice("angular_rate", csv.angular_rate, kAngularUnits, "unit of the angular rate, per second");
+  b.number("time_unit_s", csv.time_unit_s, Range::positive(),
+           "seconds per unit of the time column");
 }
 
 }  // namespace traverse::dataset

@@ -35,11 +35,11 @@ std::string_view name_of(ReferenceFrame frame) {
 }
 
 void bind(Binder& b, StatedValues& v) {
-  b.text("name", v.name, "what reports call the recording");
+  b.text("name", v.name, "name of the recording in reports");
   b.flag("motion_compensated", v.motion_compensated,
-         "the points of a scan already lie where they would at its stamp");
+         "the points of a scan are already deskewed to its stamp");
   b.text("sensor", v.sensor, "lidar profile: a name in share/sensors, or a file");
-  b.group("reference", "the trajectory to compare with", [&](Binder& reference) {
+  b.group("reference", "reference trajectory", [&](Binder& reference) {
     reference.text("file", v.reference_file, "relative to the recording's folder");
     reference.choice("format", v.reference_format, kTrajectoryFormatNames, "of the file");
     reference.choice("frame", v.reference_frame, kFrames, "whose poses the file holds");
@@ -47,14 +47,13 @@ void bind(Binder& b, StatedValues& v) {
                      "true north in the file's map, from x towards y");
   });
   b.text("calibration", v.calibration, "file in KITTI's form with the camera's pose");
-  b.text("body_frame", v.body_frame, "what reports call the body frame");
+  b.text("body_frame", v.body_frame, "name of the body frame in reports");
   b.number("period_s", v.period_s, Range::positive(), "between scans without stamps");
   b.text("first_stamp", v.first_stamp, "of the first scan without stamps, seconds");
-  b.group("vehicle", "where its sensors are, and what its wheels tell",
+  b.group("vehicle", "mounting of the sensors, and wheel odometry",
           [&](Binder& vehicle) { bind(vehicle, v.vehicle); });
-  b.group("log", "how a text log writes things", [&](Binder& log) { bind(log, v.log); });
-  b.group("csv", "which columns of which files a recording is",
-          [&](Binder& csv) { bind(csv, v.csv); });
+  b.group("log", "format of a text log", [&](Binder& log) { bind(log, v.log); });
+  b.group("csv", "files and columns of a CSV recording", [&](Binder& csv) { bind(csv, v.csv); });
 }
 
 Statements::Statements(const fs::path& sidecar, const OpenOptions& options, fs::path folder)

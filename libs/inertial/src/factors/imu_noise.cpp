@@ -9,9 +9,9 @@ void bind(config::Binder& b, ImuNoise& n) {
   b.number("accelerometer_density", n.accelerometer_density, Range::positive(),
            "white noise of the accelerometer, m/s^2/sqrt(Hz)");
   b.number("gyro_bias_walk", n.gyro_bias_walk, Range::positive(),
-           "walk of the gyro's bias, rad/s/sqrt(s)");
+           "random walk of the gyro bias, rad/s/sqrt(s)");
   b.number("accelerometer_bias_walk", n.accelerometer_bias_walk, Range::positive(),
-           "walk of the accelerometer's bias, m/s^2/sqrt(s)");
+           "random walk of the accelerometer bias, m/s^2/sqrt(s)");
 }
 
 }  // namespace traverse::inertial

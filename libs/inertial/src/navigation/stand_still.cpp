@@ -10,14 +10,15 @@ namespace traverse::inertial {
 
 void bind(config::Binder& b, StandStillOptions& o) {
   using config::Range;
-  b.number("seconds", o.seconds, Range::between(0.1, 60), "to stand still for, at the start");
+  b.number("seconds", o.seconds, Range::between(0.1, 60),
+           "duration of the stand-still at the start");
   b.number("rate_std", o.rate_std, Range::positive(),
-           "most standard deviation of the angular rate, rad/s");
+           "largest standard deviation of the angular rate, rad/s");
   b.number("force_std", o.force_std, Range::positive(),
-           "most standard deviation of the specific force, m/s^2");
-  b.number("rate", o.rate, Range::positive(), "most mean angular rate, rad/s");
+           "largest standard deviation of the specific force, m/s^2");
+  b.number("rate", o.rate, Range::positive(), "largest mean angular rate, rad/s");
   b.number("gravity_error", o.gravity_error, Range::positive(),
-           "most difference of the mean specific force to gravity, m/s^2");
+           "largest difference between the mean specific force and gravity, m/s^2");
 }
 
 Eigen::Matrix3d levelled(const Eigen::Vector3d& up_body) {

@@ -37,11 +37,11 @@ void bind(config::Binder& b, GnssSettings& s) {
        {"multipath", GnssMode::kMultipath}}};
   b.flag("mounted", s.mounted, "the vehicle has a receiver");
   bind(b, s.mounting);
-  b.choice("mode", s.mode, kModes, "how good its positions are");
+  b.choice("mode", s.mode, kModes, "quality of its positions");
   b.number("rate_hz", s.rate_hz, Range::between(0.1, 100), "fixes per second");
-  b.flag("dual_antenna", s.dual_antenna, "gives headings");
-  b.number("heading_noise_deg", s.heading_noise_deg, Range::between(0, 90), "deviation");
-  b.numbers("outages_s", s.outages_s, "from and to by turns, seconds of the drive");
+  b.flag("dual_antenna", s.dual_antenna, "it gives headings");
+  b.number("heading_noise_deg", s.heading_noise_deg, Range::between(0, 90), "standard deviation");
+  b.numbers("outages_s", s.outages_s, "begin and end of each outage in turn, seconds of the drive");
   b.number("latitude_deg", s.latitude_deg, Range::between(-89, 89), "of the map's origin");
   b.number("longitude_deg", s.longitude_deg, Range::between(-180, 180), "of the map's origin");
   b.number("altitude_m", s.altitude_m, Range::between(-500, 9000), "above the ellipsoid");

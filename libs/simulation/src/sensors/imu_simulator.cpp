@@ -39,10 +39,13 @@ void bind(config::Binder& b, ImuSettings& s) {
   b.number("accel_noise", s.accel_noise, Range::non_negative(), "density, m/s^2/sqrt(Hz)");
   b.number("gyro_bias_walk", s.gyro_bias_walk, Range::non_negative(), "density, rad/s^2/sqrt(Hz)");
   b.number("accel_bias_walk", s.accel_bias_walk, Range::non_negative(), "density, m/s^3/sqrt(Hz)");
-  b.number("gyro_bias", s.gyro_bias, Range::non_negative(), "at switch-on, deviation, rad/s");
-  b.number("accel_bias", s.accel_bias, Range::non_negative(), "at switch-on, deviation, m/s^2");
-  b.number("scale_error", s.scale_error, Range::between(0, 0.1), "deviation, each axis");
-  b.number("misalignment_deg", s.misalignment_deg, Range::between(0, 10), "deviation, each pair");
+  b.number("gyro_bias", s.gyro_bias, Range::non_negative(),
+           "standard deviation at switch-on, rad/s");
+  b.number("accel_bias", s.accel_bias, Range::non_negative(),
+           "standard deviation at switch-on, m/s^2");
+  b.number("scale_error", s.scale_error, Range::between(0, 0.1), "standard deviation, each axis");
+  b.number("misalignment_deg", s.misalignment_deg, Range::between(0, 10),
+           "standard deviation, each pair of axes");
 }
 
 ImuSimulator::ImuSimulator(const ImuSettings& settings, const VehicleMotion& motion,

@@ -20,10 +20,11 @@ void bind(config::Binder& b, WheelSettings& s) {
   b.number("radius_m", s.radius_m, Range::between(0.02, 2), "of the wheels, nominal");
   b.number("track_m", s.track_m, Range::between(0.05, 5), "between the wheels");
   b.number("pulses_per_turn", s.pulses_per_turn, Range::between(1, 1e6), "of each wheel");
-  b.number("radius_error", s.radius_error, Range::between(0, 0.2), "deviation, relative");
+  b.number("radius_error", s.radius_error, Range::between(0, 0.2), "standard deviation, relative");
   b.number("slip_per_mps2", s.slip_per_mps2, Range::between(0, 0.2),
-           "share that a wheel turns too far, by acceleration");
-  b.number("roughness", s.roughness, Range::between(0, 0.5), "deviation of the way, relative");
+           "slip of a wheel, share per m/s^2 of acceleration");
+  b.number("roughness", s.roughness, Range::between(0, 0.5),
+           "standard deviation of the distance, relative");
 }
 
 WheelSimulator::WheelSimulator(const WheelSettings& settings, const VehicleMotion& motion,

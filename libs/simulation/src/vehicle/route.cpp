@@ -61,23 +61,24 @@ void extend(std::vector<Eigen::Vector2d>& points) {
 }  // namespace
 
 void bind(config::Binder& b, RouteSettings& s) {
-  b.numbers("waypoints_m", s.waypoints_m, "x and y of each corner by turns, metres east and north");
+  b.numbers("waypoints_m", s.waypoints_m, "x and y of each corner in turn, metres east and north");
   b.flag("closed", s.closed, "the last corner leads to the first");
   b.integer("laps", s.laps, Range::between(1, 1000), "of a closed route");
   b.number("corner_radius_m", s.corner_radius_m, Range::between(1, 10000),
            "of the rounded corners");
   b.number("speed_mps", s.speed_mps, Range::between(0.1, 80), "where no corner asks for less");
   b.number("acceleration_mps2", s.acceleration_mps2, Range::between(0.05, 20),
-           "the most, forwards");
-  b.number("braking_mps2", s.braking_mps2, Range::between(0.05, 20), "the most, backwards");
-  b.number("lateral_mps2", s.lateral_mps2, Range::between(0.05, 20), "the most in corners");
-  b.number("jerk_mps3", s.jerk_mps3, Range::between(0.05, 100), "the most along the road");
+           "largest acceleration forwards");
+  b.number("braking_mps2", s.braking_mps2, Range::between(0.05, 20), "largest deceleration");
+  b.number("lateral_mps2", s.lateral_mps2, Range::between(0.05, 20),
+           "largest lateral acceleration");
+  b.number("jerk_mps3", s.jerk_mps3, Range::between(0.05, 100), "largest jerk along the road");
   b.numbers("stops_m", s.stops_m, "metres along each lap where the vehicle halts");
-  b.number("stop_s", s.stop_s, Range::between(0, 3600), "how long it halts there");
+  b.number("stop_s", s.stop_s, Range::between(0, 3600), "duration of each halt");
   b.number("standstill_s", s.standstill_s, Range::between(0, 3600),
-           "how long it stands at the start and at the end");
+           "duration of the stand-still at the start and at the end");
   b.number("wander_m", s.wander_m, Range::between(0, 5),
-           "the most that another drive (drive_seed) keeps beside this line");
+           "largest distance of another drive (drive_seed) from this line");
 }
 
 ImpossibleRoute::ImpossibleRoute(std::string k, std::string e, std::string f)

@@ -8,8 +8,9 @@ namespace traverse::simulation {
 
 void bind(config::Binder& b, TerrainSettings& s) {
   b.number("relief_m", s.relief_m, config::Range::between(0, 30),
-           "how far the ground lies above or below its mean");
-  b.number("wavelength_m", s.wavelength_m, config::Range::between(50, 10000), "of its hills");
+           "amplitude of the ground's height about its mean");
+  b.number("wavelength_m", s.wavelength_m, config::Range::between(50, 10000),
+           "wavelength of the hills");
 }
 
 Terrain::Terrain(const TerrainSettings& settings, std::uint64_t seed) {

@@ -39,7 +39,7 @@ void bind(config::Binder& b, PlaceSettings& s) {
        {"tunnel", PlaceKind::kTunnel},
        {"park", PlaceKind::kPark},
        {"corridor", PlaceKind::kCorridor}}};
-  b.choice("kind", s.kind, kKinds, "what is built along the route");
+  b.choice("kind", s.kind, kKinds, "kind of place along the route");
   b.number("half_width_m", s.half_width_m, Range::between(0.8, 30), "of the road or corridor");
   b.number("lane_offset_m", s.lane_offset_m, Range::between(-20, 20),
            "of the route to the right of the road's middle");
@@ -47,8 +47,8 @@ void bind(config::Binder& b, PlaceSettings& s) {
   b.number("height_m", s.height_m, Range::between(2.2, 20), "of a tunnel or corridor");
   b.number("density", s.density, Range::between(0, 3), "of trees, parked cars and furniture");
   b.flag("terraced", s.terraced, "a town of houses that are all alike, wall to wall");
-  b.integer("vehicles", s.vehicles, Range::between(0, 200), "that drive in the opposite lane");
-  b.integer("pedestrians", s.pedestrians, Range::between(0, 500), "that walk");
+  b.integer("vehicles", s.vehicles, Range::between(0, 200), "vehicles in the opposite lane");
+  b.integer("pedestrians", s.pedestrians, Range::between(0, 500), "walking pedestrians");
 }
 
 Place build_place(const PlaceSettings& settings, const Route& route, const Terrain& terrain,
