@@ -219,7 +219,7 @@ void add_evaluate(CLI::App& app) {
              "(se3; sim3 with scale), or the scale alone");
   command
       .add_option("--align-first", options.alignment.first,
-                  "find the alignment from so many poses at the start, apply it to all")
+                  "find the alignment from the first N poses, apply it to all")
       ->check(count_from_one());
   command
       .add_option("--max-time-difference", options.association.max_time_difference_s,

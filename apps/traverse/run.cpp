@@ -77,7 +77,8 @@ void measure_factors(dataset::Source& source, const pipeline::RunRecord& record,
 
 void write_utm(const pipeline::Estimator& estimator, const pipeline::RunFolder& folder) {
   const auto origin = estimator.map_origin();
-  if (!origin) throw std::runtime_error("--utm: no fix tells where on Earth this way is");
+  if (!origin)
+    throw std::runtime_error("--utm: no GNSS fix gives the position of this trajectory on Earth");
   const auto path = dataset::read_trajectory(folder.trajectory(), dataset::TrajectoryFormat::kTum);
   const pipeline::UtmTrajectory utm = pipeline::to_utm(path, *origin);
   dataset::write_tum(folder.utm_trajectory(), utm.T_utm_body);
@@ -385,7 +386,7 @@ CLI::App* add_estimating(CLI::App& app, const std::string& name, const std::stri
       ->capture_default_str();
   run->add_flag("!--no-report", arguments->report, "no pictures and no report.html");
   run->add_flag("--utm", arguments->utm,
-                "write the way on the UTM grid too (RUN/trajectory_utm.tum)");
+                "write the trajectory in UTM coordinates too (RUN/trajectory_utm.tum)");
   add_budget_option(*run, arguments->budget);
   run->add_flag("!--no-hash", arguments->hash, "do not compute the recording's SHA-256");
   run->callback([arguments] {
@@ -416,9 +417,9 @@ void add_run(CLI::App& app) {
       "close loops over the odometry, or not; else as the preset says");
   run->add_flag("--bench-factors", arguments->bench_factors,
                 "measure analytic, automatic and numeric derivatives on a frame of the run");
-  run->add_option(
-         "--drop-gnss", arguments->gnss_outages,
-         "withhold fixes for GNSS outages of so many seconds, and tell the error after each")
+  run->add_option("--drop-gnss", arguments->gnss_outages,
+                  "withhold fixes for GNSS outages of these lengths in seconds, and report the "
+                  "error after each")
       ->type_name("10,30,60");
 }
 

@@ -78,7 +78,7 @@ Entry read_entry(const Document& document, const fs::path& folder) {
       [&](Binder& b) {
         b.text("path", entry.path, "of the recording, or a glob");
         b.text("simulate", entry.world,
-               "arguments of `traverse simulate`, which makes the recording");
+               "world that `traverse simulate` makes it of, with options");
         b.numbers("seeds", entry.seeds, "one generated recording per seed");
         b.text("name", recording.name, "in tables");
         b.text("config", config_file, "statements about the recording");

@@ -50,9 +50,9 @@ void bind(Binder& b, VehicleStatements& v) {
   b.group("wheels", "of the wheels that have encoders", [&](Binder& wheels) {
     wheels.numbers("position_m", v.wheels_position_m, "middle of their axle in the body, metres");
     wheels.number("left_m_per_pulse", v.left_m_per_pulse, Range::non_negative(),
-                  "distance that a pulse tells");
+                  "distance per pulse");
     wheels.number("right_m_per_pulse", v.right_m_per_pulse, Range::non_negative(),
-                  "distance that a pulse tells");
+                  "distance per pulse");
   });
 }
 

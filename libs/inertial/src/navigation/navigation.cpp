@@ -191,7 +191,7 @@ class Navigation::Impl {
 
   void use(const WheelOdometry& reading) {
     if (!wheel_speed_.add(reading)) {
-      ++events["wheel reading that tells no speed"];
+      ++events["wheel reading without a speed"];
       return;
     }
     if (!has_started()) {

@@ -173,7 +173,7 @@ Drawing scan_matches(const RegisteredScan& registered, const geometry::Trajector
                                registered.scan.origin.z()};
   canvas.add(cloud_in(area, points_in(registered.scan, centre, style.theme.other), sizes.line),
              area.rect);
-  if (residuals.empty()) draw_note(canvas, area.rect, "the estimator did not tell its matches");
+  if (residuals.empty()) draw_note(canvas, area.rect, "the estimator did not keep its matches");
   // Lines are few: they come last, above the planes.
   for (const auto& [matches, colour] :
        {std::pair(&registered.on_planes, kOnPlane), std::pair(&registered.on_lines, kOnLine)}) {

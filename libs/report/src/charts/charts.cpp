@@ -106,7 +106,7 @@ void add_association(const RunData& run, Json& charts) {
   std::vector<double> differences_ms;
   for (const auto& match : matches) differences_ms.push_back(1000 * match.time_difference_s);
   charts.push_back(Chart("association", "association",
-                         "Time from each pose to its partner on the reference", "ms")
+                         "Time from each pose to its match on the reference", "ms")
                        .series("estimate − reference", for_each_pose(run, differences_ms))
                        .flag("points")
                        .take());

@@ -65,7 +65,7 @@ void add_navigation_charts(const pipeline::FrameTable& frames, Json& charts) {
                 charts);
   add_estimated("gnss-latency", "Latency of the fixes", "s",
                 {estimated(frames, "latency", "gnss_latency_s", "gnss_latency_sigma")}, charts);
-  add_estimated("gnss-bias", "What fixes err by for long", "m",
+  add_estimated("gnss-bias", "Slowly varying error of fixes", "m",
                 {estimated(frames, "east", "gnss_bias_east_m", "gnss_bias_east_sigma"),
                  estimated(frames, "north", "gnss_bias_north_m", "gnss_bias_north_sigma"),
                  estimated(frames, "up", "gnss_bias_up_m", "gnss_bias_up_sigma")},

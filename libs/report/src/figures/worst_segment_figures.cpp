@@ -112,7 +112,7 @@ void add_registration(const Shown& shown, std::size_t number, const RegisteredFr
   const std::size_t planes = frame.on_planes.size();
   const std::string how =
       lines + planes == 0
-          ? std::string("its scan, thinned; this estimator does not tell its matches")
+          ? std::string("its scan, thinned; this estimator does not keep its matches")
           : fmt::format("its scan and its matches, {} on lines and {} on planes, thinned", lines,
                         planes);
   maker.add_sized(

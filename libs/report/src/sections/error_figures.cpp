@@ -39,7 +39,7 @@ void add_coloured_trajectory(const RunData& run, FigureMaker& maker) {
   const std::vector<double> values = for_each_pose(run, ape->values);
   maker.add(
       "trajectory", "trajectory-error",
-      "The same way, coloured by the distance of each pose from its partner on the reference.",
+      "The same trajectory, coloured by the distance of each pose from its match on the reference.",
       [&](const Style& style) {
         return render::trajectory_coloured(
             estimate, {values, "APE, translation", "m", render::ColourMap::kViridis},
@@ -135,17 +135,17 @@ void add_kitti_segments(const RunData& run, const evaluation::KittiDrift& kitti,
   for (std::size_t k = 0; k < sums.size(); ++k) sums[k] /= counts[k];
   const std::vector<double> values = for_each_pose(run, sums);
   const geometry::Trajectory estimate = aligned_estimate(run);
-  maker.add("kitti", "kitti-segments",
-            "The way, coloured by the mean translational drift of the segments through each pose.",
-            [&](const Style& style) {
-              return render::trajectory_coloured(
-                  estimate,
-                  {values, "drift of the segments here", "%", render::ColourMap::kViridis},
-                  run.reference ? &*run.reference : nullptr,
-                  maker.caption("KITTI drift along the way",
-                                plural(kitti.segments.size(), "segment") + " of 100 to 800 m"),
-                  style);
-            });
+  maker.add(
+      "kitti", "kitti-segments",
+      "The trajectory, coloured by the mean translational drift of the segments through each pose.",
+      [&](const Style& style) {
+        return render::trajectory_coloured(
+            estimate, {values, "drift of the segments here", "%", render::ColourMap::kViridis},
+            run.reference ? &*run.reference : nullptr,
+            maker.caption("KITTI drift along the trajectory",
+                          plural(kitti.segments.size(), "segment") + " of 100 to 800 m"),
+            style);
+      });
 }
 
 void add_kitti_drift(const evaluation::KittiDrift& kitti, FigureMaker& maker) {
@@ -179,7 +179,7 @@ void add_association(const RunData& run, FigureMaker& maker) {
   series.panels.push_back({"estimate − reference", "ms", {{"", times, differences_ms}}, {}});
   maker.add(
       "association", "association",
-      "What matched what: the time from each pose to its partner on the reference; a gap is a "
+      "Association: the time from each pose to its match on the reference; a gap is a "
       "stretch without partners.",
       [&](const Style& style) {
         return render::time_series(
