@@ -53,6 +53,7 @@ TEST(PlaneMap, TheParentAnswersWhereACellHasTooFewPoints) {
   parallel::Workers workers(1);
   PlaneMap map({});
   LocalPoints points;
+  points.origin_map = kGridAnchor_map;
   for (int i = 0; i < 6; ++i) {  // four to nine points in each 0.5 m cell of one parent cell
     for (int j = 0; j < 6; ++j) {
       points.x.push_back(0.13F + 0.25F * static_cast<float>(i));
@@ -109,7 +110,7 @@ TEST(PlaneMap, IsTheSameForAnyNumberOfThreads) {
 TEST(PlaneMap, StandingStillForHoursKeepsThePlane) {
   parallel::Workers workers(1);
   PlaneMap map({});
-  const LocalPoints points = slope({0, 0, 1}, 0.2, 500);
+  const LocalPoints points = slope(kGridAnchor_map + Eigen::Vector3d(0.2, 0.2, 1.2), 0.2, 500);
   for (int frame = 0; frame < 2000; ++frame) map.insert(points, workers);  // a million points
   const CellGrid grid = map.grid(points.origin_map);
   PlaneMap::Answer plane{};

@@ -155,6 +155,7 @@ geometry::Matrix6 registration_covariance(const lidar::RegistrationHealth& healt
 
 voxel_map::SweepSample deskewed(voxel_map::SweepSample sample, const geometry::Twist& velocity) {
   for (auto* points : {&sample.surface, &sample.planar, &sample.edges}) deskew(*points, velocity);
+  sample.edges.step_variance.clear();  // files and spilled keyframes do not hold it
   return sample;
 }
 

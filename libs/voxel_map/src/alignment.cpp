@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 
 #include <ceres/problem.h>
 #include <ceres/solver.h>
@@ -15,10 +17,14 @@
 #include "traverse/statistics/quantile.hpp"
 
 #include "condensed_cost.hpp"
+#include "facing_information.hpp"
 
 namespace traverse::voxel_map {
 
 namespace {
+
+/// Of the mean information of a match: above it no noise of normals comes near.
+constexpr double kPlainlySeen = 0.05;
 
 double usual_range(std::vector<float> ranges) {
   return ranges.empty() ? 1 : statistics::element_at_share(ranges, 0.5);
@@ -87,69 +93,154 @@ void bind(config::Binder& b, AlignmentOptions& o) {
   bind(b, o.objective);
 }
 
+namespace {
+
+constexpr int kPolishingRounds = 2;  // after a degenerate direction was given its prediction back
+
+/// The registration of one scan, round by round.
+class Registration {
+ public:
+  Registration(const SweepSample& sample, const VoxelMap& map, const MotionModel& motion,
+               const AlignmentOptions& options, parallel::Workers& workers, ScanMatches& matches,
+               lidar::StageTimes& ms)
+      : sample_(sample),
+        map_(map),
+        motion_(motion),
+        options_(options),
+        workers_(workers),
+        matches_(matches),
+        ms_(ms),
+        scale_m_(usual_range(sample.planar.range)) {
+    matches_.forget();
+  }
+
+  Alignment from(const geometry::Pose3& guess, const Effort& effort) {
+    result_.T_map_lidar = guess;
+    const bool moved = approach(guess, options_.rounds + effort.extra_rounds, effort.gate_factor);
+    lidar::RegistrationHealth& health = result_.health;
+    if (!moved) return result_;
+    judge_directions();
+    if (health.observability.degenerate == 0) return result_;
+    // Along such a direction the matches' noise has moved the pose, not what they measure.
+    const geometry::Twist step = geometry::log_se3(guess.inverse() * result_.T_map_lidar);
+    result_.T_map_lidar = guess * geometry::exp_se3(health.observability.well_observed(step));
+    polish(guess);
+    return result_;
+  }
+
+ private:
+  /// Rounds until a step is small. \returns whether the scan was registered
+  bool approach(const geometry::Pose3& guess, int rounds, double gate_factor) {
+    for (int round = 0; round < rounds; ++round) {
+      const double halved = gate_factor * options_.gate_m * std::pow(0.5, std::max(0, round - 1));
+      const auto step = step_once(guess, std::max(halved, options_.narrow_gate_m));
+      if (!step) return false;
+      result_.T_map_lidar = result_.T_map_lidar * geometry::exp_se3(*step);
+      if (round >= 1 && is_small(*step)) break;
+    }
+    return true;
+  }
+
+  /// The directions that are judged keep their prediction; the others adapt to it.
+  void polish(const geometry::Pose3& guess) {
+    const lidar::Observability judged = result_.health.observability;
+    for (int round = 0; round < kPolishingRounds; ++round) {
+      const geometry::Pose3 before = result_.T_map_lidar;
+      const auto step = step_once(guess, options_.narrow_gate_m);
+      if (!step) return;
+      const geometry::Twist kept = judged.well_observed(*step);
+      result_.T_map_lidar = before * geometry::exp_se3(kept);
+      if (is_small(kept)) break;
+    }
+    result_.health.observability = judged;
+  }
+
+  /// Associates at the present pose and solves once. \returns the step (body twist); nothing, and
+  /// the guess as the pose, where there are too few matches or no solution
+  std::optional<geometry::Twist> step_once(const geometry::Pose3& guess, double gate_m) {
+    lidar::Stopwatch watch;
+    lidar::RegistrationHealth& health = result_.health;
+    const geometry::Twist velocity = motion_.velocity_at(result_.T_map_lidar);
+    to_local(sample_.planar, result_.T_map_lidar, velocity, workers_, planar_);
+    to_local(sample_.edges, result_.T_map_lidar, velocity, workers_, edges_);
+    watch.lap(ms_.deskew);
+    associate(sample_, planar_, edges_, map_, gate_m, options_.matches, workers_, matches_);
+    watch.lap(ms_.associate);
+
+    ++health.steps;
+    health.line_matches = matches_.line_1.size();
+    health.plane_matches = matches_.planes.size();
+    result_.standing_planes = matches_.standing_planes;
+    if (matches_.size() < static_cast<std::size_t>(options_.min_matches)) return give_up(guess);
+    CondensedCost cost(matches_, motion_, options_.objective, workers_);
+    normal_ = cost.at(result_.T_map_lidar);
+    T_map_lidar_of_normal_ = result_.T_map_lidar;
+    const auto count = static_cast<double>(matches_.size());
+    health.residual_rms_m = std::sqrt(normal_.squared_m / count);
+    health.inlier_share = normal_.inliers / count;
+    const Solved solved = solve(cost, result_.T_map_lidar, options_.iterations);
+    health.iterations += solved.iterations;
+    watch.lap(ms_.solve);
+    if (!solved.usable) return give_up(guess);
+    health.registered = true;
+    return geometry::log_se3(result_.T_map_lidar.inverse() * solved.T_map_lidar);
+  }
+
+  std::optional<geometry::Twist> give_up(const geometry::Pose3& guess) {
+    result_.health.registered = false;
+    result_.health.observability.degenerate = 6;
+    result_.T_map_lidar = guess;
+    return std::nullopt;
+  }
+
+  bool is_small(const geometry::Twist& step) const {
+    return step.tail<3>().norm() < options_.converged_m &&
+           step.head<3>().norm() * 180 / std::numbers::pi < options_.converged_deg;
+  }
+
+  void judge_directions() {
+    lidar::Stopwatch watch;
+    const Eigen::Matrix3d& R = T_map_lidar_of_normal_.rotation;
+    lidar::Observability& seen = result_.health.observability;
+    seen = lidar::observability(information(normal_, R, scale_m_), scale_m_,
+                                std::numeric_limits<double>::lowest());
+    while (seen.degenerate < 6 && is_degenerate(seen, seen.degenerate)) ++seen.degenerate;
+    watch.lap(ms_.solve);
+  }
+
+  /// Whether what the matches say along an eigenvector of their information is not more than what
+  /// noise of the map's normals explains: only rows that face the direction count.
+  bool is_degenerate(const lidar::Observability& seen, int direction) const {
+    if (seen.eigenvalues[direction] > kPlainlySeen) return false;
+    lidar::Vector6 along = seen.directions.col(direction);
+    along.head<3>() /= scale_m_;
+    const double facing = facing_information(matches_, T_map_lidar_of_normal_, motion_, along);
+    return facing < options_.min_eigenvalue;
+  }
+
+  const SweepSample& sample_;
+  const VoxelMap& map_;
+  const MotionModel& motion_;
+  const AlignmentOptions& options_;
+  parallel::Workers& workers_;
+  ScanMatches& matches_;
+  lidar::StageTimes& ms_;
+  double scale_m_;
+  LocalPoints planar_;
+  LocalPoints edges_;
+  NormalEquations normal_;
+  geometry::Pose3 T_map_lidar_of_normal_;
+  Alignment result_;
+};
+
+}  // namespace
+
 Alignment align(const SweepSample& sample, const VoxelMap& map, const MotionModel& motion,
                 const geometry::Pose3& guess_T_map_lidar, const AlignmentOptions& options,
                 const Effort& effort, parallel::Workers& workers, ScanMatches& matches,
                 lidar::StageTimes& ms) {
-  lidar::Stopwatch watch;
-  Alignment result;
-  result.T_map_lidar = guess_T_map_lidar;
-  lidar::RegistrationHealth& health = result.health;
-  const double scale_m = usual_range(sample.planar.range);
-  LocalPoints planar;
-  LocalPoints edges;
-  matches.forget();
-  for (int round = 0; round < options.rounds + effort.extra_rounds; ++round) {
-    const geometry::Twist velocity = motion.velocity_at(result.T_map_lidar);
-    to_local(sample.planar, result.T_map_lidar, velocity, workers, planar);
-    to_local(sample.edges, result.T_map_lidar, velocity, workers, edges);
-    watch.lap(ms.deskew);
-    const double halved =
-        effort.gate_factor * options.gate_m * std::pow(0.5, std::max(0, round - 1));
-    associate(sample, planar, edges, map, std::max(halved, options.narrow_gate_m), options.matches,
-              workers, matches);
-    watch.lap(ms.associate);
-
-    ++health.steps;
-    health.line_matches = matches.line_1.size();
-    health.plane_matches = matches.planes.size();
-    result.standing_planes = matches.standing_planes;
-    if (matches.size() < static_cast<std::size_t>(options.min_matches)) {
-      health.registered = false;
-      health.observability.degenerate = 6;
-      result.T_map_lidar = guess_T_map_lidar;
-      break;
-    }
-    CondensedCost cost(matches, motion, options.objective, workers);
-    const NormalEquations normal = cost.at(result.T_map_lidar);
-    const auto count = static_cast<double>(matches.size());
-    health.residual_rms_m = std::sqrt(normal.squared_m / count);
-    health.inlier_share = normal.inliers / count;
-    health.observability = lidar::observability(
-        information(normal, result.T_map_lidar.rotation, scale_m), scale_m, options.min_eigenvalue);
-
-    const Solved solved = solve(cost, result.T_map_lidar, options.iterations);
-    health.iterations += solved.iterations;
-    health.registered = solved.usable;
-    if (!solved.usable) {
-      result.T_map_lidar = guess_T_map_lidar;
-      break;
-    }
-    geometry::Twist step = geometry::log_se3(result.T_map_lidar.inverse() * solved.T_map_lidar);
-    if (health.observability.degenerate == 0) {
-      result.T_map_lidar = solved.T_map_lidar;
-    } else {
-      step = health.observability.well_observed(step);
-      result.T_map_lidar = result.T_map_lidar * geometry::exp_se3(step);
-    }
-    watch.lap(ms.solve);
-    const double turned_deg = step.head<3>().norm() * 180 / std::numbers::pi;
-    if (round >= 1 && step.tail<3>().norm() < options.converged_m &&
-        turned_deg < options.converged_deg) {
-      break;
-    }
-  }
-  return result;
+  Registration registration(sample, map, motion, options, workers, matches, ms);
+  return registration.from(guess_T_map_lidar, effort);
 }
 
 }  // namespace traverse::voxel_map

@@ -8,10 +8,11 @@ CellGrid::CellGrid(const Eigen::Vector3d& origin_map, double edge_m)
     : cell_m(static_cast<float>(edge_m)), per_m(static_cast<float>(1 / edge_m)) {
   for (int axis = 0; axis < 3; ++axis) {
     constexpr double kFarthest = 1e9;  // of what 32 bits count, with room for what is around
-    const double floor = std::floor(origin_map[axis] / edge_m);
+    const double from_anchor = origin_map[axis] - kGridAnchor_map[axis];
+    const double floor = std::floor(from_anchor / edge_m);
     const double cell = std::abs(floor) < kFarthest ? floor : 0;
     base[axis] = static_cast<std::int32_t>(cell);
-    shift[axis] = static_cast<float>(origin_map[axis] - cell * edge_m);
+    shift[axis] = static_cast<float>(from_anchor - cell * edge_m);
   }
 }
 

@@ -10,8 +10,9 @@ namespace traverse::voxel_map {
 
 namespace {
 
-constexpr std::size_t kReach = 5;  // neighbours on each side of a surface point
-constexpr float kLead = 1;         // steps, of two points, that a receding surface is led on
+constexpr std::size_t kReach = 5;        // neighbours on each side of a surface point
+constexpr float kOfUniform = 1.0F / 12;  // variance of what lies anywhere in a step of 1
+constexpr float kLead = 1;               // steps, of two points, that a receding surface is led on
 
 float to_float(double value) { return static_cast<float>(value); }
 
@@ -190,9 +191,12 @@ void sample_edges(const Row& row, const std::vector<std::uint8_t>& breaks,
   // average. Without it an edge would creep outward as the sensor comes nearer and steps shrink.
   const auto push_end = [&](std::size_t end, std::size_t inner) {
     constexpr float kHalfStep = 0.25F;  // of two steps
-    samples.edges.push_back(
-        x[end] + kHalfStep * (x[end] - x[inner]), y[end] + kHalfStep * (y[end] - y[inner]),
-        z[end] + kHalfStep * (z[end] - z[inner]), range[end], row.source_of(end));
+    const float dx = x[end] - x[inner];
+    const float dy = y[end] - y[inner];
+    const float dz = z[end] - z[inner];
+    samples.edges.push_back(x[end] + kHalfStep * dx, y[end] + kHalfStep * dy,
+                            z[end] + kHalfStep * dz, range[end], row.source_of(end));
+    samples.edges.step_variance.push_back(kOfUniform * 0.25F * (dx * dx + dy * dy + dz * dz));
   };
   for_each_surface(row, breaks, [&](std::size_t first, std::size_t last) {
     if (first == 0 || last + 1 == row.size) return;
@@ -224,6 +228,8 @@ void sample_edges(const Row& row, const std::vector<std::uint8_t>& breaks,
       const float outward = 1 + pole_depth * radius / std::sqrt(mx * mx + my * my);
       samples.edges.push_back(outward * mx, outward * my, mz * share, range[first],
                               row.source_of((first + last) / 2));
+      const float step = 2 * radius / static_cast<float>(count);
+      samples.edges.step_variance.push_back(kOfUniform * step * step);
       return;
     }
     if (count < 3) return;

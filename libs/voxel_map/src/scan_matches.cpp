@@ -170,7 +170,8 @@ void associate(const SweepSample& sample, const LocalPoints& planar, const Local
       const float r2 = distance(line.n2, line.d2);
       if (!(r1 * r1 + r2 * r2 <= gate * gate)) continue;
       const float range = sample.edges.range[i];
-      const float weight = 1 / (line_noise + per_m * range * range + line.variance);
+      const float step = sample.edges.step_variance.empty() ? 0 : sample.edges.step_variance[i];
+      const float weight = 1 / (line_noise + per_m * range * range + step + line.variance);
       const auto set = [&](PlaneRows& rows, const float* n, float d) {
         set_point(rows, row, sample.edges, i);
         rows.nx[row] = n[0];

@@ -32,6 +32,7 @@ void SweepPoints::append(const SweepPoints& other) {
   add(range, other.range);
   add(time, other.time);
   add(source, other.source);
+  add(step_variance, other.step_variance);
 }
 
 void SweepPoints::append(const SweepPoints& other, std::size_t i) {

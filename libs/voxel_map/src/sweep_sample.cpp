@@ -171,4 +171,25 @@ SweepSample sample_sweep(const sensors::LidarScan& scan, const sensors::LidarPro
   return sample;
 }
 
+std::pair<double, double> time_span(const SweepSample& sample) {
+  std::pair<double, double> span{0, 0};
+  bool is_first = true;
+  for (const SweepPoints* points : {&sample.surface, &sample.edges}) {
+    if (points->size() == 0) continue;
+    const auto [low, high] = std::minmax_element(points->time.begin(), points->time.end());
+    span.first = is_first ? *low : std::min<double>(span.first, *low);
+    span.second = is_first ? *high : std::max<double>(span.second, *high);
+    is_first = false;
+  }
+  return span;
+}
+
+void count_times_from(double middle_s, SweepSample& sample) {
+  const auto shift = static_cast<float>(middle_s - sample.middle_s);
+  for (SweepPoints* points : {&sample.surface, &sample.planar, &sample.edges}) {
+    for (float& time : points->time) time -= shift;
+  }
+  sample.middle_s = middle_s;
+}
+
 }  // namespace traverse::voxel_map

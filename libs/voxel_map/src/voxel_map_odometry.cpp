@@ -39,10 +39,32 @@ VoxelMapOdometry::VoxelMapOdometry(const VoxelMapOdometryOptions& options,
       deskew_note_(lidar::deskew_note(options.deskew, profile, motion_compensated)),
       workers_(std::make_shared<parallel::Workers>(options.threads)),
       map_(options.map),
-      held_back_(options.start.scans) {}
+      held_back_(options.start.scans),
+      sweeps_(profile) {}
 
 std::vector<lidar::Frame> VoxelMapOdometry::process(const sensors::LidarScan& scan) {
-  return advance_all(held_back_.add(sample_sweep(scan, profile_, options_.sampling, *workers_)));
+  return advance_all(held_back_.add(sampled(scan)));
+}
+
+SweepSample VoxelMapOdometry::sampled(const sensors::LidarScan& scan) {
+  SweepSample sample = sample_sweep(scan, profile_, options_.sampling, *workers_);
+  if (deskew_note_ != "on") return sample;
+  if (profile_.time_source == sensors::TimeSource::kAzimuth) {
+    count_times_from((0.5 - profile_.stamp_fraction) * profile_.sweep_s, sample);
+    return sample;
+  }
+  const auto [first_s, last_s] = time_span(sample);
+  if (sweeps_.lacks_times(first_s, last_s)) {
+    for (SweepPoints* points : {&sample.surface, &sample.planar, &sample.edges}) {
+      std::fill(points->time.begin(), points->time.end(), 0.0F);
+    }
+    sample.middle_s = sweeps_.usual_middle_s();
+    sweeps_.learn(scan.stamp, 0, 0);
+  } else {
+    count_times_from(0.5 * (first_s + last_s), sample);
+    sweeps_.learn(scan.stamp, first_s, last_s);
+  }
+  return sample;
 }
 
 std::vector<lidar::Frame> VoxelMapOdometry::finish() { return advance_all(held_back_.release()); }
@@ -79,7 +101,7 @@ std::vector<lidar::Frame> VoxelMapOdometry::advance_all(const std::vector<SweepS
   if (frames_ == 0 && scans.size() >= 2) {
     std::vector<double> intervals_s;
     for (std::size_t i = 1; i < scans.size(); ++i) {
-      intervals_s.push_back(interval(scans[i - 1].stamp, scans[i].stamp));
+      intervals_s.push_back(interval(scans[i - 1].stamp, scans[i - 1].middle_s, scans[i]));
     }
     velocity_ = find_initial_velocity(scans, intervals_s, deskew_note_ == "on", options_.map,
                                       options_.alignment, options_.start, *workers_);
@@ -90,8 +112,10 @@ std::vector<lidar::Frame> VoxelMapOdometry::advance_all(const std::vector<SweepS
   return frames;
 }
 
-double VoxelMapOdometry::interval(geometry::Stamp earlier, geometry::Stamp later) const {
-  const double seconds = sensors::scan_interval(earlier, later, profile_);
+double VoxelMapOdometry::interval(geometry::Stamp earlier, double earlier_middle_s,
+                                  const SweepSample& later) const {
+  const double stamped = sweeps_.interval(earlier, later.stamp);
+  const double seconds = stamped > 0 ? stamped + later.middle_s - earlier_middle_s : stamped;
   return seconds > 0 ? seconds : profile_.sweep_s;
 }
 
@@ -107,31 +131,37 @@ lidar::Frame VoxelMapOdometry::advance(const SweepSample& sample, double start_m
   frame.ms.features = sample.features_ms;
 
   const bool deskew = deskew_note_ == "on";
+  geometry::Pose3 T_map_middle = geometry::exp_se3(sample.middle_s * velocity_);  // of the sweep
   if (frames_ > 0) {
-    const double dt = interval(last_stamp_, sample.stamp);
+    const double dt = interval(last_stamp_, last_middle_s_, sample);
     const geometry::Pose3 predicted = T_map_last_ * geometry::exp_se3(dt * velocity_);
     const Effort effort =
         frames_ < static_cast<std::size_t>(options_.first_frames) ? kFirstFrames : Effort{};
     const Alignment alignment = align(sample, map_, {T_map_last_, dt, deskew}, predicted,
                                       options_.alignment, effort, *workers_, matches_, frame.ms);
-    frame.T_map_lidar = alignment.T_map_lidar.orthonormalised();
+    T_map_middle = alignment.T_map_lidar.orthonormalised();
     frame.health = alignment.health;
     if (frame.health.registered) {
-      velocity_ = geometry::log_se3(T_map_last_.inverse() * frame.T_map_lidar) / dt;
+      velocity_ = geometry::log_se3(T_map_last_.inverse() * T_map_middle) / dt;
     }
   }
   frame.velocity = velocity_;
+  frame.T_map_lidar = T_map_middle;
+  if (sample.middle_s != 0) {
+    frame.T_map_lidar = T_map_middle * geometry::exp_se3(-sample.middle_s * velocity_);
+  }
   // A pose that is only predicted does not shape the map, unless there is no map yet.
   const auto least = static_cast<std::size_t>(options_.alignment.min_matches);
   if (frame.health.registered || frames_ == 0 || map_.size() < least) {
     lidar::Stopwatch watch;
-    map_.insert(sample, frame.T_map_lidar, deskew ? velocity_ : geometry::Twist::Zero(), *workers_);
+    map_.insert(sample, T_map_middle, deskew ? velocity_ : geometry::Twist::Zero(), *workers_);
     watch.lap(frame.ms.insert);
   }
   frame.map_points = map_.size();
 
-  T_map_last_ = frame.T_map_lidar;
+  T_map_last_ = T_map_middle;
   last_stamp_ = frame.stamp;
+  last_middle_s_ = sample.middle_s;
   ++frames_;
   return frame;
 }

@@ -16,7 +16,7 @@ struct AlignmentOptions {
   double converged_m = 0.002;  ///< a round that moves the pose by less than both is the last
   double converged_deg = 0.006;
   int min_matches = 50;           ///< with fewer the prediction stands
-  double min_eigenvalue = 0.001;  ///< smaller: the direction is degenerate (Observability)
+  double min_eigenvalue = 0.001;  ///< less from surfaces that face it: a direction is degenerate
   MatchOptions matches;
   ObjectiveOptions objective;
 };
@@ -37,8 +37,11 @@ struct Effort {
 
 /// Moves the pose so that the scan's points come onto the planes and lines of the map. Each round
 /// associates at the present pose, then Ceres minimises the robust cost of these matches (one
-/// condensed cost function, whose derivative is analytic). The step of a round is projected on the
-/// directions that the matches determine: a degenerate one keeps its prediction.
+/// condensed cost function, whose derivative is analytic). Which directions the matches determine
+/// is judged at the pose that the rounds lead to, not on the way: matches at a wrong guess say
+/// little of what can be seen. A direction is degenerate where the information on it is no more
+/// than what noise of the map's normals explains (facing_information.hpp); it keeps its prediction,
+/// and the others are solved once more with it.
 /// \param matches of the last round, on return; what it held before does not matter
 Alignment align(const SweepSample& sample, const VoxelMap& map, const MotionModel& motion,
                 const geometry::Pose3& guess_T_map_lidar, const AlignmentOptions& options,

@@ -12,9 +12,14 @@ struct RelativeCell {
   bool operator==(const RelativeCell&) const = default;
 };
 
+/// Where the grids of all cells begin, metres in the map frame. Not its origin: people build, and
+/// simulate, at round distances from where they start, and a wall along the faces of its cells is
+/// cut into halves whose planes lie beside it.
+inline const Eigen::Vector3d kGridAnchor_map{0.157, 0.211, 0.173};
+
 /// How floats near the vehicle and the cells of a map meet. Cells are anchored to the map frame and
-/// numbered from its origin; points come as floats relative to a nearby `origin_map`, so that a
-/// float is fine enough however far the drive goes.
+/// numbered from kGridAnchor_map; points come as floats relative to a nearby `origin_map`, so that
+/// a float is fine enough however far the drive goes.
 struct CellGrid {
   float cell_m;
   float per_m;           ///< 1 / cell_m
@@ -40,7 +45,7 @@ struct CellGrid {
 
 /// Centre of a cell of edge `cell_m`, map frame.
 inline Eigen::Vector3d cell_centre(std::int32_t x, std::int32_t y, std::int32_t z, double cell_m) {
-  return cell_m * Eigen::Vector3d(x + 0.5, y + 0.5, z + 0.5);
+  return kGridAnchor_map + cell_m * Eigen::Vector3d(x + 0.5, y + 0.5, z + 0.5);
 }
 
 /// An origin near `position_map` for the floats of a frame; the same for neighbouring positions.

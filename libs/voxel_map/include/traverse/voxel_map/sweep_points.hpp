@@ -12,6 +12,8 @@ struct SweepPoints {
   std::vector<float> range;           ///< metres
   std::vector<float> time;            ///< seconds after the scan's stamp
   std::vector<std::uint32_t> source;  ///< index of the point in the LidarScan
+  /// Of edge points: square metres, because an edge lies anywhere between two beams; else empty.
+  std::vector<float> step_variance;
 
   std::size_t size() const { return x.size(); }
   void resize(std::size_t points);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "traverse/geometry/stamp.hpp"
@@ -22,6 +23,7 @@ struct SweepSample {
   lidar::DroppedPoints dropped;
   bool from_range_image = false;  ///< the scan has no rings
   bool timed = false;             ///< false: point times are not known and all zero
+  double middle_s = 0;            ///< what point times count from, seconds after the stamp
 
   SweepPoints surface;  ///< for the map: planar points and rough ones
   std::vector<std::uint8_t> surface_is_planar;
@@ -41,6 +43,12 @@ struct SweepSample {
 /// rings. The result does not depend on the number of `workers`.
 SweepSample sample_sweep(const sensors::LidarScan& scan, const sensors::LidarProfile& profile,
                          const SamplingOptions& options, parallel::Workers& workers);
+
+/// The times of the first and the last of the sample's points; zeros where there are none.
+std::pair<double, double> time_span(const SweepSample& sample);
+
+/// Lets the times of the sample's points count from `middle_s` after the stamp.
+void count_times_from(double middle_s, SweepSample& sample);
 
 /// Indices of the first point of each cube of edge `cube_m`, in order, of those with mark[i] != 0.
 std::vector<std::uint32_t> first_of_each_cube(const SweepPoints& points,

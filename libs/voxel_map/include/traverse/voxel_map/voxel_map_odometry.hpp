@@ -8,6 +8,7 @@
 #include "traverse/lidar/held_back.hpp"
 #include "traverse/lidar/odometry.hpp"
 #include "traverse/parallel/workers.hpp"
+#include "traverse/sensors/steady_sweeps.hpp"
 #include "traverse/voxel_map/start_search.hpp"
 
 namespace traverse::voxel_map {
@@ -30,6 +31,11 @@ void bind(config::Binder& binder, VoxelMapOdometryOptions& options);
 ///                     predict the pose by the last velocity
 ///                     align: associate by cell, minimise the robust cost, deskew by the result
 ///                     insert the sample at the pose found
+///
+/// What is estimated is the pose in the middle of the sweep, wherever its stamp is; a frame's pose
+/// is that one moved on to the stamp by the velocity. With the pose before it known, the motion
+/// within a sweep follows from this pose. One at the sweep's end would move the mean point only
+/// half as far as itself, so that its error would be twice theirs, and the next one the other way.
 ///
 /// What happens to odd input: points that are not finite, at the origin, out of range or of a ring
 /// beyond the profile's are left out and counted. A scan with too few matches keeps the prediction,
@@ -67,7 +73,10 @@ class VoxelMapOdometry final : public lidar::Odometry {
  private:
   std::vector<lidar::Frame> advance_all(const std::vector<SweepSample>& scans);
   lidar::Frame advance(const SweepSample& sample, double start_ms);
-  double interval(geometry::Stamp earlier, geometry::Stamp later) const;
+  /// The sample of the scan, with times from the middle of its sweep where it is deskewed.
+  SweepSample sampled(const sensors::LidarScan& scan);
+  /// Seconds between the moments that are estimated.
+  double interval(geometry::Stamp earlier, double earlier_middle_s, const SweepSample& later) const;
 
   VoxelMapOdometryOptions options_;
   sensors::LidarProfile profile_;
@@ -76,10 +85,12 @@ class VoxelMapOdometry final : public lidar::Odometry {
   VoxelMap map_;
 
   lidar::HeldBack<SweepSample> held_back_;
+  sensors::SteadySweeps sweeps_;
 
   std::size_t frames_ = 0;
   geometry::Stamp last_stamp_;
-  geometry::Pose3 T_map_last_;
+  double last_middle_s_ = 0;                            // after that stamp: the moment of the pose
+  geometry::Pose3 T_map_last_;                          // in the middle of the last sweep
   geometry::Twist velocity_ = geometry::Twist::Zero();  // at the last frame
   ScanMatches matches_;  // of the last frame; kept for its memory too
 };
