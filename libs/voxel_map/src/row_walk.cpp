@@ -4,13 +4,23 @@
 #include <cmath>
 #include <cstring>
 
+#include "traverse/statistics/quantile.hpp"
+
 #include "lanes.hpp"
 
 namespace traverse::voxel_map {
 
 namespace {
 
-constexpr std::size_t kReach = 5;        // neighbours on each side of a surface point
+constexpr std::size_t kReach = 5;  // neighbours on each side of a surface point, at most
+/// Radians that they span on each side: a ring on a floor is an arc, whose middle leaves its ends
+/// by 0.6 per mille of the range in this window.
+constexpr float kWindow = 0.035F;
+/// Neighbours on a surface are this times as far apart as one that is seen head-on: at 70 degrees.
+constexpr float kGrazing = 3;
+constexpr float kDenseGap =
+    1.1F * kWindow / kReach;         // radians between beams of a dense scan: 0.44 deg
+constexpr float kWidestGap = 0.09F;  // radians between neighbours; beyond it they are no neighbours
 constexpr float kOfUniform = 1.0F / 12;  // variance of what lies anywhere in a step of 1
 constexpr float kLead = 1;               // steps, of two points, that a receding surface is led on
 
@@ -38,13 +48,22 @@ void for_each_surface(const Row& row, const std::vector<std::uint8_t>& breaks, c
   if (first < row.size) work(first, row.size - 1);
 }
 
+/// Radians between the directions of points i and i + 1, small angles.
+float gap_between(const Row& row, std::size_t i) {
+  const float scale = 1 / (row.range[i] * row.range[i + 1] + 1e-12F);
+  const float cx = row.y[i] * row.z[i + 1] - row.z[i] * row.y[i + 1];
+  const float cy = row.z[i] * row.x[i + 1] - row.x[i] * row.z[i + 1];
+  const float cz = row.x[i] * row.y[i + 1] - row.y[i] * row.x[i + 1];
+  return scale * std::sqrt(cx * cx + cy * cy + cz * cz);
+}
+
 /// Points of the row that go on `spacing` metres from point i, at least one.
-std::size_t points_in(float spacing, const Row& row, std::size_t i) {
-  const float ex = row.x[i + kReach] - row.x[i - kReach];
-  const float ey = row.y[i + kReach] - row.y[i - kReach];
-  const float ez = row.z[i + kReach] - row.z[i - kReach];
-  constexpr float kShare = 1.0F / (2 * kReach);
-  const float step = std::sqrt(ex * ex + ey * ey + ez * ez) * kShare + 1e-4F;
+std::size_t points_in(float spacing, const Row& row, std::size_t reach, std::size_t i) {
+  const float ex = row.x[i + reach] - row.x[i - reach];
+  const float ey = row.y[i + reach] - row.y[i - reach];
+  const float ez = row.z[i + reach] - row.z[i - reach];
+  const float share = 1.0F / static_cast<float>(2 * reach);
+  const float step = std::sqrt(ex * ex + ey * ey + ez * ez) * share + 1e-4F;
   const float points = spacing / step;
   const auto whole = static_cast<std::int32_t>(points);
   const std::int32_t ceiling =
@@ -52,8 +71,14 @@ std::size_t points_in(float spacing, const Row& row, std::size_t i) {
   return static_cast<std::size_t>(std::max(1, ceiling));
 }
 
-/// Of the eleven values around `middle`; short sums, which do not wait for each other.
-float window_mean(const float* middle) {
+/// Of the 2 reach + 1 values around `middle`; eleven by short sums, which do not wait for each
+/// other.
+float window_mean(const float* middle, std::size_t reach) {
+  if (reach != kReach) {
+    float sum = 0;
+    for (const float* v = middle - reach; v <= middle + reach; ++v) sum += *v;
+    return sum / static_cast<float>(2 * reach + 1);
+  }
   const float* v = middle - kReach;
   const float sum =
       ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7])) + ((v[8] + v[9]) + v[10]);
@@ -61,7 +86,7 @@ float window_mean(const float* middle) {
 }
 
 /// Adds the chosen points to the surface: a planar one at the mean of its window.
-void place(const Row& row, const SamplingOptions& options, RowSamples& samples) {
+void place(const Row& row, std::size_t reach, const SamplingOptions& options, RowSamples& samples) {
   const float flatness = to_float(options.flatness_m);
   const float flatness_per_m = to_float(options.flatness_per_m);
   SweepPoints& surface = samples.surface;
@@ -69,9 +94,9 @@ void place(const Row& row, const SamplingOptions& options, RowSamples& samples) 
   surface.resize(to + samples.chosen.size());
   samples.planar.resize(surface.size());
   for (const std::uint32_t i : samples.chosen) {
-    const float mx = window_mean(row.x + i);
-    const float my = window_mean(row.y + i);
-    const float mz = window_mean(row.z + i);
+    const float mx = window_mean(row.x + i, reach);
+    const float my = window_mean(row.y + i, reach);
+    const float mz = window_mean(row.z + i, reach);
     const float dx = mx - row.x[i];
     const float dy = my - row.y[i];
     const float dz = mz - row.z[i];
@@ -98,6 +123,38 @@ void mark_steps(const float* __restrict x, const float* __restrict y, const floa
     const float dz = z[i + 1] - z[i];
     const float limit = base + per_m * range[i];
     breaks[i] = dx * dx + dy * dy + dz * dz > limit * limit ? kStep : kNoBreak;
+  }
+}
+
+/// The angle between neighbours that half of the row's do not exceed, from a part of them.
+float usual_gap(const Row& row) {
+  constexpr std::size_t kLooked = 64;
+  std::vector<float> gaps;
+  const std::size_t step = std::max<std::size_t>(1, (row.size - 1) / kLooked);
+  for (std::size_t i = 0; i + 1 < row.size; i += step) gaps.push_back(gap_between(row, i));
+  return statistics::element_at_share(gaps, 0.5);
+}
+
+/// Neighbours on each side that a surface point is judged by.
+std::size_t reach_of(const Row& row) {
+  if (row.size < 2) return kReach;
+  const float gap = std::max(usual_gap(row), 1e-6F);
+  return static_cast<std::size_t>(
+      std::clamp(kWindow / gap + 0.5F, 1.0F, static_cast<float>(kReach)));
+}
+
+/// Takes back breaks between beams that are far apart, or between which some did not return: there
+/// a step says little of the surface.
+void join_across_gaps(const Row& row, float base, std::vector<std::uint8_t>& breaks) {
+  for (std::size_t i = 0; i + 1 < row.size; ++i) {
+    if (breaks[i] == kNoBreak) continue;
+    const float gap = gap_between(row, i);
+    if (gap <= kDenseGap || gap > kWidestGap) continue;
+    const float dx = row.x[i + 1] - row.x[i];
+    const float dy = row.y[i + 1] - row.y[i];
+    const float dz = row.z[i + 1] - row.z[i];
+    const float limit = base + kGrazing * gap * std::min(row.range[i], row.range[i + 1]);
+    if (dx * dx + dy * dy + dz * dz <= limit * limit) breaks[i] = kNoBreak;
   }
 }
 
@@ -149,6 +206,7 @@ void find_breaks(const Row& row, const SamplingOptions& options, const Seam& sea
   const std::size_t n = row.size - 1;
   mark_steps(row.x, row.y, row.z, row.range, n, to_float(options.break_m),
              to_float(options.break_per_m), breaks.data());
+  join_across_gaps(row, to_float(options.break_m), breaks);
   if (seam.by_azimuth) {
     mark_seam(row.x, row.y, n, seam.x, seam.y, breaks.data());
   } else if (row.time != nullptr) {
@@ -163,18 +221,19 @@ void sample_surfaces(const Row& row, const std::vector<std::uint8_t>& breaks,
                      const SamplingOptions& options, float nearest, RowSamples& samples) {
   const float most = to_float(options.max_range_m);
   const float spacing = to_float(options.spacing_m);
+  const std::size_t reach = reach_of(row);
   samples.chosen.clear();
   for_each_surface(row, breaks, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first + kReach; i + kReach <= last;) {
+    for (std::size_t i = first + reach; i + reach <= last;) {
       if (row.range[i] >= most || row.range[i] < nearest) {
         ++i;
         continue;
       }
       samples.chosen.push_back(static_cast<std::uint32_t>(i));
-      i += points_in(spacing, row, i);
+      i += points_in(spacing, row, reach, i);
     }
   });
-  place(row, options, samples);
+  place(row, reach, options, samples);
 }
 
 void sample_edges(const Row& row, const std::vector<std::uint8_t>& breaks,
