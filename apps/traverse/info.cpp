@@ -6,6 +6,7 @@
 
 #include "commands.hpp"
 #include "json_output.hpp"
+#include "recording_formats_report.hpp"
 #include "recording_options.hpp"
 #include "recording_progress.hpp"
 #include "recording_report.hpp"
@@ -16,13 +17,20 @@ namespace {
 
 struct InfoOptions {
   RecordingOptions recording;
+  bool formats = false;
   std::string json;  ///< path; empty if not given
 };
 
 constexpr const char* kExamples = R"(Examples:
   traverse info 2011_09_26_drive_0001_sync
   traverse info drive.rawlog --json drive.json
-  traverse info scans --recording sensor=hdl64e_kitti --recording period_s=0.1)";
+  traverse info scans --recording sensor=hdl64e_kitti --recording period_s=0.1
+  traverse info --formats)";
+
+void list_formats(const InfoOptions& options) {
+  if (!options.json.empty()) write_json_output(options.json, recording_formats_json());
+  fmt::print("{}", recording_formats_text());
+}
 
 void run_info(const InfoOptions& options) {
   const auto source = options.recording.open();
@@ -45,10 +53,22 @@ void add_info(CLI::App& app) {
       "taken for true about it");
   auto options = std::make_shared<InfoOptions>();
   add_recording_options(*command, options->recording);
+  CLI::Option* recording = command->get_option("RECORDING")->required(false);
+  command
+      ->add_flag("--formats", options->formats,
+                 "list the kinds of recording that are read, and how they are recognised")
+      ->excludes(recording);
   command->add_option("--json", options->json, "write all of it to this file too")
       ->option_text("FILE");
   command->footer(kExamples);
-  command->callback([options] { run_info(*options); });
+  command->callback([options, recording] {
+    if (options->formats) {
+      list_formats(*options);
+      return;
+    }
+    if (recording->empty()) throw CLI::RequiredError("RECORDING");
+    run_info(*options);
+  });
 }
 
 }  // namespace traverse::app

@@ -21,7 +21,7 @@ std::unique_ptr<dataset::Source> RecordingOptions::open() const {
 void add_recording_options(CLI::App& command, RecordingOptions& options, const std::string& name) {
   command
       .add_option(name, options.recording,
-                  "KITTI odometry or raw folder, folder of PCD or PLY files, or MRPT rawlog")
+                  "a file or folder; `traverse info --formats` lists the kinds that are read")
       ->required();
   command
       .add_option("--recording-config", options.config,

@@ -200,7 +200,8 @@ TEST(Rawlog, EmptyAndForeignFilesAreRefused) {
   files::write_text(folder / "c.rawlog", std::string("\x1f\x8b\x08\x00junkjunkjunkjunk", 20));
   EXPECT_THAT(opening_error(folder / "c.rawlog"), HasSubstr("found damaged compressed data"));
   files::write_text(folder / "d.bin", std::string(1000, '\0'));
-  EXPECT_THAT(opening_error(folder / "d.bin"), HasSubstr("expected an MRPT rawlog"));
+  EXPECT_THAT(opening_error(folder / "d.bin"),
+              HasSubstr("(MRPT rawlog), found a file that begins with '\\x00"));
 }
 
 /// A record of a class that does not exist.

@@ -66,6 +66,20 @@ TEST_F(RecordingCommands, InfoWritesTheSameAsJson) {
   EXPECT_TRUE(stated);
 }
 
+TEST_F(RecordingCommands, InfoListsTheFormats) {
+  const ProgramResult result = run_program("info --formats --json " + path("formats.json"));
+  ASSERT_EQ(result.status, 0) << result.messages;
+  const auto json = nlohmann::json::parse(files::read_text(folder_ / "formats.json"));
+  ASSERT_GE(json["formats"].size(), 6U);
+  for (const auto& format : json["formats"]) {
+    EXPECT_THAT(result.output, HasSubstr(format["name"].get<std::string>()));
+    EXPECT_THAT(format["description"].get<std::string>(), ::testing::Not(IsEmpty()));
+  }
+  EXPECT_THAT(result.output, ContainsRegex("KITTI odometry +a folder with velodyne/\\*.bin"));
+  EXPECT_EQ(run_program("info").status, 2) << "a recording or --formats";
+  EXPECT_EQ(run_program("info --formats " + path("drive")).status, 2);
+}
+
 TEST_F(RecordingCommands, ConvertThereAndBack) {
   ASSERT_EQ(run_program("convert " + path("drive") + " " + path("a.rawlog")).status, 0);
   const ProgramResult back = run_program("convert " + path("a.rawlog") + " " + path("scans") +

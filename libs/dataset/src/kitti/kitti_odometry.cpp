@@ -1,3 +1,4 @@
+#include <string_view>
 #include <utility>
 
 #include "kitti/kitti_bin.hpp"
@@ -27,11 +28,12 @@ std::optional<ReferenceFile> find_poses(const fs::path& folder) {
 
 }  // namespace
 
-std::unique_ptr<Source> open_kitti_odometry(const fs::path& folder, const OpenOptions& options) {
+std::unique_ptr<Source> open_kitti_odometry(const fs::path& folder, const OpenOptions& options,
+                                            std::string_view format) {
   const Statements statements(folder / "traverse.yaml", options, folder);
   FolderRecording recording;
   RecordingInfo& info = recording.info;
-  info = begin_info(folder, "KITTI odometry", statements, "lidar");
+  info = begin_info(folder, format, statements, "lidar");
   set_motion_compensation(info, statements, true,
                           "scans of the KITTI odometry benchmark are motion-compensated");
 

@@ -1,3 +1,4 @@
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -112,11 +113,12 @@ std::optional<Reference> oxts_reference(const OxtsStream& stream, const Pose3& T
 
 }  // namespace
 
-std::unique_ptr<Source> open_kitti_raw(const fs::path& folder, const OpenOptions& options) {
+std::unique_ptr<Source> open_kitti_raw(const fs::path& folder, const OpenOptions& options,
+                                       std::string_view format) {
   const Statements statements(folder / "traverse.yaml", options, folder);
   FolderRecording recording;
   RecordingInfo& info = recording.info;
-  info = begin_info(folder, "KITTI raw", statements, "lidar");
+  info = begin_info(folder, format, statements, "lidar");
   set_motion_compensation(info, statements, false, "scans of KITTI raw are as measured");
 
   ProfileChoice profile = installed_profile(options.share_folder, "hdl64e_kitti");

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -266,9 +267,10 @@ class CsvRecording {
 
 }  // namespace
 
-std::unique_ptr<Source> open_csv_folder(const fs::path& folder, const OpenOptions& options) {
+std::unique_ptr<Source> open_csv_folder(const fs::path& folder, const OpenOptions& options,
+                                        std::string_view format) {
   const Statements statements(folder / "traverse.yaml", options, folder);
-  RecordingInfo info = begin_info(folder, "CSV folder", statements, "vehicle");
+  RecordingInfo info = begin_info(folder, format, statements, "vehicle");
   CsvRecording recording(folder, statements);
   recording.read_imu();
   recording.read_gnss();

@@ -152,10 +152,11 @@ bool is_navigation_log(const fs::path& file) {
   return false;
 }
 
-std::unique_ptr<Source> open_navigation_log(const fs::path& file, const OpenOptions& options) {
+std::unique_ptr<Source> open_navigation_log(const fs::path& file, const OpenOptions& options,
+                                            std::string_view format) {
   const Statements statements(fs::path(file).replace_extension(".traverse.yaml"), options,
                               file.parent_path());
-  RecordingInfo info = begin_info(file, "navigation log", statements, "vehicle");
+  RecordingInfo info = begin_info(file, format, statements, "vehicle");
   const auto unit = statements->log.angular_rate == AngularUnit::kDegrees ? "deg/s" : "rad/s";
   const auto pulses =
       statements->log.pulses == PulseCount::kCumulative ? "cumulative" : "of each interval";

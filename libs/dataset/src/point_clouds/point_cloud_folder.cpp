@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -132,12 +133,12 @@ ProfileChoice profile_from(const Example& example, bool has_time) {
 
 }  // namespace
 
-std::unique_ptr<Source> open_point_cloud_folder(const fs::path& folder,
-                                                const OpenOptions& options) {
+std::unique_ptr<Source> open_point_cloud_folder(const fs::path& folder, const OpenOptions& options,
+                                                std::string_view format) {
   const Statements statements(folder / "traverse.yaml", options, folder);
   FolderRecording recording;
   RecordingInfo& info = recording.info;
-  info = begin_info(folder, "point-cloud folder", statements, "lidar");
+  info = begin_info(folder, format, statements, "lidar");
   set_motion_compensation(info, statements, false, "default, not stated");
 
   const std::vector<fs::path> files = find_clouds(folder, info.facts);

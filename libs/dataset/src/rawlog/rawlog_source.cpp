@@ -1,5 +1,6 @@
 #include "rawlog/rawlog_source.hpp"
 
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -50,11 +51,11 @@ struct RawlogBookmark : Bookmark {
 
 class RawlogSource : public Source {
  public:
-  RawlogSource(const fs::path& file, const OpenOptions& options)
+  RawlogSource(const fs::path& file, const OpenOptions& options, std::string_view format)
       : file_(file),
         statements_(sidecar_of(file), options, file.parent_path()),
         external_folder_(external_folder_of(file)),
-        info_(begin_info(file, "MRPT rawlog", statements_, "vehicle")),
+        info_(begin_info(file, format, statements_, "vehicle")),
         sensors_(statements_, options.share_folder, info_),
         reader_(std::make_unique<mrpt_io::RawlogReader>(file)),
         converter_(std::in_place, sensors_, external_folder_) {
@@ -173,8 +174,9 @@ class RawlogSource : public Source {
 
 }  // namespace
 
-std::unique_ptr<Source> open_rawlog(const fs::path& file, const OpenOptions& options) {
-  return std::make_unique<RawlogSource>(file, options);
+std::unique_ptr<Source> open_rawlog(const fs::path& file, const OpenOptions& options,
+                                    std::string_view format) {
+  return std::make_unique<RawlogSource>(file, options, format);
 }
 
 }  // namespace traverse::dataset

@@ -16,11 +16,11 @@ constexpr const char* kDefault = "default, not stated";
 
 }  // namespace
 
-RecordingInfo begin_info(const fs::path& path, std::string format, const Statements& statements,
-                         const std::string& body_frame) {
+RecordingInfo begin_info(const fs::path& path, std::string_view format,
+                         const Statements& statements, const std::string& body_frame) {
   RecordingInfo info;
   info.path = path;
-  info.format = std::move(format);
+  info.format = format;
   const fs::path own_name = fs::is_directory(path) ? fs::canonical(path).filename() : path.stem();
   info.name = statements.states("name") ? statements->name : own_name.string();
   info.rig.body_frame = statements.states("body_frame") ? statements->body_frame : body_frame;

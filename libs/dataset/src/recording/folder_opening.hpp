@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "traverse/dataset/open_recording.hpp"
 
@@ -20,7 +21,7 @@ namespace traverse::dataset {
 /// The body is the lidar.
 
 /// Path, format, name and body frame.
-RecordingInfo begin_info(const std::filesystem::path& path, std::string format,
+RecordingInfo begin_info(const std::filesystem::path& path, std::string_view format,
                          const Statements& statements, const std::string& body_frame);
 
 /// Mounts the lidar in the origin of the body.
@@ -39,12 +40,14 @@ std::optional<Reference> choose_reference(RecordingInfo& info, const Statements&
                                           const std::optional<ReferenceFile>& found,
                                           const PoseStamps& stamps);
 
+/// \param format the name of it, see recording_formats.hpp
 /// \throws files::InputError if the recording cannot be used at all.
 std::unique_ptr<Source> open_kitti_odometry(const std::filesystem::path& folder,
-                                            const OpenOptions& options);
+                                            const OpenOptions& options, std::string_view format);
 std::unique_ptr<Source> open_kitti_raw(const std::filesystem::path& folder,
-                                       const OpenOptions& options);
+                                       const OpenOptions& options, std::string_view format);
 std::unique_ptr<Source> open_point_cloud_folder(const std::filesystem::path& folder,
-                                                const OpenOptions& options);
+                                                const OpenOptions& options,
+                                                std::string_view format);
 
 }  // namespace traverse::dataset

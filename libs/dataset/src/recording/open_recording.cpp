@@ -1,11 +1,14 @@
 #include "traverse/dataset/open_recording.hpp"
 
-#include "traverse/files/input_error.hpp"
+#include <array>
+#include <fstream>
+#include <string>
+#include <string_view>
 
-#include "navigation_log/navigation_log.hpp"
-#include "point_clouds/scan_files.hpp"
-#include "rawlog/rawlog_source.hpp"
-#include "recording/folder_opening.hpp"
+#include <fmt/format.h>
+
+#include "traverse/dataset/recording_formats.hpp"
+#include "traverse/files/input_error.hpp"
 
 namespace traverse::dataset {
 
@@ -16,24 +19,39 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFolders =
-    "a recording: a folder with velodyne/*.bin (KITTI odometry), velodyne_points/data/*.bin "
-    "(KITTI raw), or *.pcd, *.ply or *.csv files";
+/// "a folder with velodyne/*.bin (KITTI odometry), ...": what a folder, or a file, may be.
+std::string known_formats(bool is_folder) {
+  std::string text = "a recording: ";
+  for (const RecordingFormat& format : recording_formats()) {
+    if (format.is_folder != is_folder) continue;
+    if (!text.ends_with(": ")) text += ", ";
+    text += fmt::format("{} ({})", format.recognised_by, format.name);
+  }
+  return text;
+}
 
-std::unique_ptr<Source> open_folder(const fs::path& folder, const OpenOptions& options) {
-  if (!files_with_extension(folder / "velodyne", ".bin").empty()) {
-    return open_kitti_odometry(folder, options);
+std::string found_in_folder(const fs::path& folder) {
+  return fs::is_empty(folder) ? "an empty folder" : "a folder with none of these";
+}
+
+std::string found_in_file(const fs::path& file) {
+  std::array<char, 16> bytes{};
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(bytes.data(), bytes.size());
+  const std::string_view start(bytes.data(), static_cast<std::size_t>(stream.gcount()));
+  return start.empty() ? "an empty file" : "a file that begins with " + files::in_quotes(start);
+}
+
+std::unique_ptr<Source> open_by_format(const fs::path& path, const OpenOptions& options) {
+  const bool is_folder = fs::is_directory(path);
+  for (const RecordingFormat& format : recording_formats()) {
+    if (format.is_folder == is_folder && format.recognises(path)) {
+      return format.open(path, options, format.name);
+    }
   }
-  if (!files_with_extension(folder / "velodyne_points/data", ".bin").empty()) {
-    return open_kitti_raw(folder, options);
-  }
-  if (!files_with_extension(folder, ".pcd").empty() ||
-      !files_with_extension(folder, ".ply").empty()) {
-    return open_point_cloud_folder(folder, options);
-  }
-  if (!files_with_extension(folder, ".csv").empty()) return open_csv_folder(folder, options);
-  throw InputError(folder, Place::whole_file(), kFolders,
-                   fs::is_empty(folder) ? "an empty folder" : "a folder with none of these");
+  throw InputError(path, Place::whole_file(), known_formats(is_folder),
+                   (is_folder ? found_in_folder(path) : found_in_file(path)) +
+                       "; `traverse info --formats` tells more of each");
 }
 
 }  // namespace
@@ -46,9 +64,7 @@ std::unique_ptr<Source> open_recording(const fs::path& path, const OpenOptions& 
                      failure ? failure.message() : "no such file or folder");
   }
   try {
-    if (fs::is_directory(whole)) return open_folder(whole, options);
-    if (is_navigation_log(whole)) return open_navigation_log(whole, options);
-    return open_rawlog(whole, options);
+    return open_by_format(whole, options);
   } catch (const fs::filesystem_error& error) {
     throw InputError(error.path1(), Place::whole_file(), "a readable recording",
                      error.code().message());

@@ -46,14 +46,8 @@ struct OpenOptions {
   std::filesystem::path share_folder;
 };
 
-/// Opens a recording, finding out its format from what is there:
-///   a folder with velodyne/*.bin                          KITTI odometry
-///   a folder with velodyne_points/data/*.bin              KITTI raw
-///   a folder with *.pcd or *.ply                          point clouds
-///   a folder with *.csv, with statements under `csv`       navigation sensors in CSV files
-///   a text file with lines IMU, ODOM and GNSS              navigation log
-///   a file *.rawlog (or any file that begins like one)    MRPT rawlog
-/// \throws files::InputError if it is none of these or cannot be read.
+/// Opens a recording, finding out its format from what is there (recording_formats.hpp).
+/// \throws files::InputError if it is of none that is known or cannot be read.
 std::unique_ptr<Source> open_recording(const std::filesystem::path& path,
                                        const OpenOptions& options);
 
