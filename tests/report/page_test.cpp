@@ -45,11 +45,12 @@ class MadeRun {
     const RunData run = read_run(folder.path(), pipeline::RunPart::kAll);
     const auto worst =
         evaluation::worst_segments(run.evaluation, run.frames.column("residual_rms_m"));
-    return make_model(run, run_figures(run), worst, nullptr);
+    const std::vector<RunFigure> figures = run_figures(run);
+    return make_model({run, figures, worst});
   }
   std::string page() const {
     ReportModel report = model();
-    return make_page(report.model, report.packed_points, {}, kTemplates);
+    return make_page(report, {}, kTemplates);
   }
 
   TemporaryFolder folder;

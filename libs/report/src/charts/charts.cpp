@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "charts/chart.hpp"
-#include "charts/navigation_charts.hpp"
 #include "charts/series.hpp"
 
 namespace traverse::report {
@@ -105,11 +104,11 @@ void add_association(const RunData& run, Json& charts) {
   const auto& matches = run.evaluation.comparison->association.matches;
   std::vector<double> differences_ms;
   for (const auto& match : matches) differences_ms.push_back(1000 * match.time_difference_s);
-  charts.push_back(Chart("association", "association",
-                         "Time from each pose to its match on the reference", "ms")
-                       .series("estimate − reference", for_each_pose(run, differences_ms))
-                       .flag("points")
-                       .take());
+  charts.push_back(
+      Chart("association", "association", "Time from each pose to its match on the reference", "ms")
+          .series("estimate − reference", for_each_pose(run, differences_ms))
+          .flag("points")
+          .take());
 }
 
 struct Column {
@@ -134,7 +133,19 @@ void add_columns(const pipeline::FrameTable& frames, Chart chart,
   if (any) charts.push_back(chart.take());
 }
 
-void add_health(const pipeline::FrameTable& frames, Json& charts) {
+}  // namespace
+
+void add_error_charts(const RunData& run, Json& charts) {
+  const evaluation::Comparison& comparison = *run.evaluation.comparison;
+  add_absolute(comparison, charts);
+  add_relative(comparison, charts);
+  add_share(comparison, charts);
+  if (comparison.kitti) add_kitti(*comparison.kitti, charts);
+  add_association(run, charts);
+}
+
+void add_health_charts(const RunData& run, Json& charts) {
+  const pipeline::FrameTable& frames = run.frames;
   add_columns(frames, {"residual", "health", "Residual rms", "m"}, {{"residual", "residual_rms_m"}},
               true, 1, charts);
   add_columns(frames, {"inliers", "health", "Inliers", "%"}, {{"inliers", "inlier_share"}}, true,
@@ -157,7 +168,8 @@ void add_health(const pipeline::FrameTable& frames, Json& charts) {
               charts);
 }
 
-void add_timing(const pipeline::FrameTable& frames, Json& charts) {
+void add_timing_charts(const RunData& run, Json& charts) {
+  const pipeline::FrameTable& frames = run.frames;
   Chart chart("timing", "timing", "Time of each stage, one on top of the other", "ms");
   chart.flag("stacked");
   for (const std::string& column : frames.columns()) {
@@ -169,21 +181,7 @@ void add_timing(const pipeline::FrameTable& frames, Json& charts) {
   charts.push_back(chart.take());
 }
 
-}  // namespace
-
-void add_charts(const RunData& run, Model& model) {
-  Json charts = Json::array();
-  if (const auto& comparison = run.evaluation.comparison) {
-    add_absolute(*comparison, charts);
-    add_relative(*comparison, charts);
-    add_share(*comparison, charts);
-    if (comparison->kitti) add_kitti(*comparison->kitti, charts);
-    add_association(run, charts);
-  }
-  add_health(run.frames, charts);
-  add_navigation_charts(run.frames, charts);
-  add_timing(run.frames, charts);
-  model.json["charts"] = std::move(charts);
+void add_poses(const RunData& run, Model& model) {
   model.json["poses"] = {{"frame", numbers(run.frames.column("frame"))},
                          {"time_s", numbers(seconds_from_start(run))},
                          {"distance_m", numbers(run.estimate.accumulated_distances())}};

@@ -48,8 +48,8 @@ void add_estimated(const char* id, const char* title, const char* unit,
 
 }  // namespace
 
-void add_navigation_charts(const pipeline::FrameTable& frames, Json& charts) {
-  if (!is_navigation(frames)) return;
+void add_navigation_charts(const RunData& run, Json& charts) {
+  const pipeline::FrameTable& frames = run.frames;
   add_innovations(frames, charts);
   add_fixes(frames, charts);
   add_estimated("gyro-bias", "Bias of the gyro less its end", "rad/s",

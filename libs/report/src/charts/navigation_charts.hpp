@@ -1,12 +1,11 @@
 #pragma once
 
-#include "traverse/pipeline/frame_table.hpp"
-
 #include "run/model.hpp"
+#include "run/run_data.hpp"
 
 namespace traverse::report {
 
-/// The charts of section "navigation", where the run is one of navigation.
-void add_navigation_charts(const pipeline::FrameTable& frames, Json& charts);
+/// The charts of a run of navigation.
+void add_navigation_charts(const RunData& run, Json& charts);
 
 }  // namespace traverse::report

@@ -1,24 +1,19 @@
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "traverse/report/run_report.hpp"
 
-#include "run/run_data.hpp"
+#include "run/report_input.hpp"
 
 namespace traverse::report {
-
-/// Where a picture may stand on the page.
-inline constexpr std::array<const char*, 9> kFigureSections{
-    "trajectory", "loops", "error", "association", "worst", "kitti", "map", "health", "timing"};
 
 /// One picture of the report, drawn for light and for dark pages.
 struct Figure {
   std::string name;     ///< file name without ending and anchor: "trajectory-above"
-  std::string section;  ///< where it stands, one of kFigureSections
+  std::string section;  ///< where it stands: {{#figures_SECTION}} of a template
   std::string caption;  ///< below it, one sentence
   /// The view that shows the same interactively, in whose absence it is seen: "3d", "charts", "".
   std::string replaced_by;
@@ -29,8 +24,7 @@ struct Figure {
 /// Draws every picture that the run has data for and writes them to `images` as NAME.png and
 /// NAME_dark.png; those without point clouds also as NAME.svg and NAME.pdf, the others for print,
 /// if that is asked for. \throws files::OutputError; ReportStopped
-std::vector<Figure> draw_figures(const RunData& run, const evaluation::WorstSegments& worst,
-                                 const RunReportOptions& options,
+std::vector<Figure> draw_figures(const ReportInput& input, const RunReportOptions& options,
                                  const std::filesystem::path& images);
 
 }  // namespace traverse::report

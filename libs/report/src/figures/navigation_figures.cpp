@@ -141,7 +141,7 @@ std::vector<render::Range> spans_where(const std::vector<double>& times,
 }
 
 void add_navigation_figures(const RunData& run, FigureMaker& maker) {
-  if (!is_navigation(run.frames) || run.frames.rows().size() < 2) return;
+  if (run.frames.rows().size() < 2) return;
   add_innovations(run, maker);
   add_fixes(run, maker);
   add_biases(run, "navigation-gyro-bias", "Bias of the gyro", "rad/s",

@@ -8,7 +8,7 @@
 
 namespace traverse::report {
 
-/// The pictures of section "navigation", where the run is one of navigation.
+/// The pictures of a run of navigation.
 void add_navigation_figures(const RunData& run, FigureMaker& maker);
 
 /// Stretches of time in which `flags` are not zero, half way to the frames beside them.

@@ -1,15 +1,21 @@
 #include "page/page.hpp"
 
+#include <map>
 #include <string_view>
 
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/text_file.hpp"
 
 #include "page/web_libraries.hpp"
+#include "sections/report_sections.hpp"
 
 namespace traverse::report {
 
 namespace {
+
+kainjow::mustache::partial partial_of(const std::filesystem::path& file) {
+  return [text = files::read_text(file)] { return text; };
+}
 
 void add_figures(const std::vector<Figure>& figures, Model& model) {
   Json json = Json::array();
@@ -20,20 +26,32 @@ void add_figures(const std::vector<Figure>& figures, Model& model) {
                     {"files", {figure.name + ".png", figure.name + "_dark.png"}}});
   }
   model.json["pictures"] = std::move(json);
-  for (const std::string section : kFigureSections) {
-    TemplateData list{TemplateData::type::list};
-    for (const Figure& figure : figures) {
-      if (figure.section != section) continue;
-      TemplateData entry;
-      entry.set("name", figure.name);
-      entry.set("caption", figure.caption);
-      entry.set("replaced_by", figure.replaced_by);
-      entry.set("light", figure.light);
-      entry.set("dark", figure.dark);
-      list.push_back(entry);
-    }
-    model.page.set("figures_" + section, list);
+  std::map<std::string, TemplateData> by_section;
+  for (const Figure& figure : figures) {
+    TemplateData entry;
+    entry.set("name", figure.name);
+    entry.set("caption", figure.caption);
+    entry.set("replaced_by", figure.replaced_by);
+    entry.set("light", figure.light);
+    entry.set("dark", figure.dark);
+    by_section.try_emplace(figure.section, TemplateData::type::list).first->second.push_back(entry);
   }
+  for (const auto& [section, list] : by_section) model.page.set("figures_" + section, list);
+}
+
+/// The sections that apply, each with its template.
+TemplateData sections(const std::vector<const ReportSection*>& applying,
+                      const std::filesystem::path& templates) {
+  TemplateData list{TemplateData::type::list};
+  for (const ReportSection* section : applying) {
+    const std::string id(section->id);
+    TemplateData entry;
+    entry.set("id", id);
+    entry.set("title", std::string(section->title));
+    entry.set("section", partial_of(templates / "sections" / (id + ".html")));
+    list.push_back(entry);
+  }
+  return list;
 }
 
 std::string library(const std::string& name) {
@@ -71,9 +89,8 @@ std::string render_page(TemplateData& page, const std::string& page_name,
                         const std::filesystem::path& templates) {
   page.set("style",
            std::string(web::dygraphs_style()) + "\n" + files::read_text(templates / "run.css"));
-  for (const std::string name : {"figure", "licences", "table", "factors"}) {
-    const std::string text = files::read_text(templates / (name + ".html"));
-    page.set(name, kainjow::mustache::partial([text] { return text; }));
+  for (const std::string name : {"figure", "licences", "table"}) {
+    page.set(name, partial_of(templates / (name + ".html")));
   }
   TemplateData list{TemplateData::type::list};
   for (const std::string& name : scripts) {
@@ -94,12 +111,14 @@ std::string render_page(TemplateData& page, const std::string& page_name,
   return page_template.render(page);
 }
 
-std::string make_page(Model& model, const std::string& packed_points,
-                      const std::vector<Figure>& figures, const std::filesystem::path& templates) {
-  add_figures(figures, model);
-  model.page.set("report_json", text_for_script(model.json));
-  model.page.set("points", packed_points);
-  return render_page(model.page, "run",
+std::string make_page(ReportModel& report, const std::vector<Figure>& figures,
+                      const std::filesystem::path& templates) {
+  TemplateData& page = report.model.page;
+  add_figures(figures, report.model);
+  page.set("sections", sections(report.sections, templates));
+  page.set("report_json", text_for_script(report.model.json));
+  page.set("points", report.packed_points);
+  return render_page(page, "run",
                      {"three", "orbit_controls", "dygraphs", "moment", "charts", "scene_colours",
                       "scene_points", "scene_way", "scene_measure", "scene", "csv", "tables"},
                      templates);

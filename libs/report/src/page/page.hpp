@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "figures/figures.hpp"
-#include "run/model.hpp"
+#include "run/report_model.hpp"
 
 namespace traverse::report {
 
 /// The whole page of a run from its filled model: report.json, the packed points of the map and the
 /// pictures stand in it. \throws files::InputError if a template is missing or is not a valid one.
-std::string make_page(Model& model, const std::string& packed_points,
-                      const std::vector<Figure>& figures, const std::filesystem::path& templates);
+std::string make_page(ReportModel& report, const std::vector<Figure>& figures,
+                      const std::filesystem::path& templates);
 
 /// `page_name`.html of the templates rendered with `page`; style, partials and the scripts named
 /// are added. \throws as above

@@ -3,22 +3,20 @@
 #include <string>
 #include <vector>
 
-#include "figures/run_figures.hpp"
 #include "run/model.hpp"
-#include "run/run_data.hpp"
+#include "run/report_input.hpp"
 
 namespace traverse::report {
 
-struct BudgetResult;
+struct ReportSection;
 
 /// Everything of a report but its pictures.
 struct ReportModel {
   Model model;
-  std::string packed_points;  ///< of the 3-D view
+  std::vector<const ReportSection*> sections;  ///< that apply, in the order of the page
+  std::string packed_points;                   ///< of the 3-D view
 };
 
-/// \param budget null if none was given
-ReportModel make_model(const RunData& run, const std::vector<RunFigure>& figures,
-                       const evaluation::WorstSegments& worst, const BudgetResult* budget);
+ReportModel make_model(const ReportInput& input);
 
 }  // namespace traverse::report

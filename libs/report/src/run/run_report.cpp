@@ -49,15 +49,16 @@ std::optional<BudgetResult> write_run_report(const std::filesystem::path& run_fo
 
   const evaluation::WorstSegments worst =
       evaluation::worst_segments(run.evaluation, run.frames.column("residual_rms_m"));
+  const ReportInput input{run, figures, worst, budget ? &*budget : nullptr};
   const pipeline::RunFolder files{run_folder};
   files::WorkFolder work(files.report_work(), files.report());
   work.clear();
   const pipeline::RunFolder made{work.path()};
   std::vector<Figure> pictures;
-  if (options.pictures) pictures = draw_figures(run, worst, options, made.images());
+  if (options.pictures) pictures = draw_figures(input, options, made.images());
 
-  ReportModel report = make_model(run, figures, worst, budget ? &*budget : nullptr);
-  const std::string page = make_page(report.model, report.packed_points, pictures, templates);
+  ReportModel report = make_model(input);
+  const std::string page = make_page(report, pictures, templates);
   files::write_text(made.report_json(), text_for_script(report.model.json) + "\n");
   files::write_text(made.report(), page);
   move_into_place(made, files);

@@ -100,7 +100,10 @@ HtmlTable undefined_table(const evaluation::Comparison& comparison) {
   return table;
 }
 
-void add_comparison(const evaluation::Comparison& comparison, Model& model) {
+}  // namespace
+
+void add_accuracy(const RunData& run, Model& model) {
+  const evaluation::Comparison& comparison = *run.evaluation.comparison;
   model.add_text("association", evaluation::describe(comparison.association));
   model.add_text("alignment", evaluation::describe(comparison.alignment, comparison.stamps.size()));
   model.add_table(ape_table(comparison));
@@ -117,16 +120,11 @@ void add_comparison(const evaluation::Comparison& comparison, Model& model) {
   model.add_table(undefined_table(comparison));
 }
 
-}  // namespace
-
-void add_accuracy(const RunData& run, Model& model) {
-  model.page.set("has_comparison", run.evaluation.comparison.has_value());
-  if (run.evaluation.comparison) add_comparison(*run.evaluation.comparison, model);
-  model.page.set("table_consistency", false);
-  if (const auto& score = run.evaluation.consistency) {
-    model.add_table(consistency_table(*score));
-    model.add_text("consistency_how", evaluation::title(*score));
-  }
+void add_map_sharpness(const RunData& run, Model& model) {
+  const auto& score = run.evaluation.consistency;
+  if (!score) return;
+  model.add_table(consistency_table(*score));
+  model.add_text("consistency_how", evaluation::title(*score));
 }
 
 }  // namespace traverse::report

@@ -147,9 +147,10 @@ void add_bench(const FactorBench& bench, Model& model) {
 
 }  // namespace
 
+bool has_factors(const RunData& run) { return run.jacobians || run.factor_bench; }
+
 void add_factors(const RunData& run, Model& model) {
   const bool audited = run.jacobians && !run.jacobians->factors.empty();
-  model.page.set("has_factors", run.jacobians.has_value() || run.factor_bench.has_value());
   model.page.set("has_jacobians", audited);
   model.page.set("has_bench", run.factor_bench.has_value());
   if (audited) add_jacobians(*run.jacobians, model);

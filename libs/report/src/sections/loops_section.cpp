@@ -103,10 +103,9 @@ std::string how_text(const std::vector<slam::Loop>& loops) {
 
 }  // namespace
 
+bool closes_loops(const RunData& run) { return run.loops && run.odometry_evaluation; }
+
 void add_loops(const RunData& run, Model& model) {
-  const bool closes_loops = run.loops && run.odometry_evaluation;
-  model.page.set("has_loops", closes_loops);
-  if (!closes_loops) return;
   model.add_text("loops_how", how_text(*run.loops));
   model.add_table(before_after_table(run));
   model.add_table(outcomes_table(*run.loops));

@@ -86,9 +86,9 @@ HtmlTable outages_table(const pipeline::FrameTable& frames) {
 
 }  // namespace
 
+bool is_navigation_run(const RunData& run) { return is_navigation(run.frames); }
+
 void add_navigation(const RunData& run, Model& model) {
-  model.page.set("has_navigation", is_navigation(run.frames));
-  if (!is_navigation(run.frames)) return;
   model.add_table(innovations_table(run.frames));
   model.add_table(biases_table(run.frames));
   model.add_table(outages_table(run.frames));

@@ -136,14 +136,16 @@ std::string command_text(const json& command) {
 
 }  // namespace
 
-void add_provenance(const RunData& run, Model& model) {
+void add_configuration(const RunData& run, Model& model) {
   model.add_text("configuration_summary", configuration_summary(run.record));
   model.add_table(configuration_table(run.record.at("configuration").at("settings")));
+}
+
+void add_provenance(const RunData& run, Model& model) {
   model.add_table(facts_table(run.record));
   model.add_table(skipped_table(run.record));
   model.add_table(made_table(run.record));
   model.add_text("command", command_text(run.record.at("command")));
-  model.add_text("program_version", run.record.at("program").at("version").get<std::string>());
 }
 
 }  // namespace traverse::report

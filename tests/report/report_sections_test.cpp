@@ -1,0 +1,93 @@
+#include "sections/report_sections.hpp"
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "traverse/files/text_file.hpp"
+#include "traverse/pipeline/run_folder.hpp"
+#include "traverse/report/run_report.hpp"
+
+#include "made_run.hpp"
+#include "temporary_folder.hpp"
+
+namespace traverse::report {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::Not;
+using testing::TemporaryFolder;
+
+/// What stands between `begin` and `end` wherever `begin` is found.
+std::vector<std::string> all_between(const std::string& text, const std::string& begin,
+                                     const std::string& end) {
+  std::vector<std::string> found;
+  for (std::size_t at = 0; (at = text.find(begin, at)) != std::string::npos;) {
+    at += begin.size();
+    found.push_back(text.substr(at, text.find(end, at) - at));
+  }
+  return found;
+}
+
+TEST(ReportSections, EachHasItsTemplateAndEachTemplateItsSection) {
+  std::set<std::string> of_table;
+  for (const ReportSection& section : report_sections()) {
+    EXPECT_TRUE(of_table.insert(std::string(section.id) + ".html").second) << section.id;
+  }
+  std::set<std::string> of_folder;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(kTemplates) + "/sections")) {
+    of_folder.insert(entry.path().filename().string());
+  }
+  EXPECT_EQ(of_table, of_folder);
+}
+
+TEST(ReportSections, ContentsAndPageFollowTheTable) {
+  const TemporaryFolder folder;
+  MadeRunOptions options;
+  options.with_reference = false;
+  make_run(folder.path(), options);
+  RunReportOptions quick;
+  quick.pictures = false;
+  write_run_report(folder.path(), kTemplates, quick);
+  const std::string page = files::read_text(pipeline::RunFolder{folder.path()}.report());
+  const auto sections = all_between(page, "<section id=\"", "\"");
+  EXPECT_THAT(sections, ElementsAre("verdict", "trajectory", "worst", "map", "health", "timing",
+                                    "configuration", "provenance"));
+  const std::string contents = page.substr(0, page.find("</nav>"));
+  EXPECT_EQ(all_between(contents, "<a href=\"#", "\""), sections);
+  for (const ReportSection& section : report_sections()) {
+    const std::string line = std::string(section.id) + "\">" + std::string(section.title) + "</a>";
+    const bool is_there = std::find(sections.begin(), sections.end(), section.id) != sections.end();
+    EXPECT_EQ(contents.find(line) != std::string::npos, is_there) << section.id;
+  }
+}
+
+TEST(ReportSections, EveryPictureAndChartHasItsPlaceOnThePage) {
+  const TemporaryFolder folder;
+  make_run(folder.path());
+  RunReportOptions options;
+  options.picture_width = 480;
+  write_run_report(folder.path(), kTemplates, options);
+  const pipeline::RunFolder files{folder.path()};
+  const std::string page = files::read_text(files.report());
+  const Json json = Json::parse(files::read_text(files.report_json()));
+  const auto figures = all_between(page, "<figure id=\"", "\"");
+  ASSERT_GT(json.at("pictures").size(), 8U);
+  for (const Json& picture : json.at("pictures")) {
+    EXPECT_THAT(figures, Contains(picture.at("name").get<std::string>()));
+  }
+  const auto places = all_between(page, "data-charts=\"", "\"");
+  ASSERT_GT(json.at("charts").size(), 8U);
+  for (const Json& chart : json.at("charts")) {
+    EXPECT_THAT(places, Contains(chart.at("section").get<std::string>()));
+  }
+}
+
+}  // namespace
+}  // namespace traverse::report
