@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "traverse/files/number_text.hpp"
+
 namespace traverse::app {
 
 namespace {
@@ -16,11 +18,6 @@ using nanogui::Alignment;
 using nanogui::Orientation;
 
 constexpr int kButton = 26;
-
-std::string clock_text(double seconds) {
-  const int minutes = static_cast<int>(seconds) / 60;
-  return fmt::format("{}:{:05.2f}", minutes, seconds - 60 * minutes);
-}
 
 }  // namespace
 
@@ -95,9 +92,9 @@ void TransportBar::refresh(const std::string& drawn) {
   const std::string last = status.frames == 0 ? "?"
                                               : fmt::format("{}{}", status.frames - 1,
                                                             status.frames_complete ? "" : "+");
-  std::string where =
-      shown ? fmt::format("  {}   frame {} of {}", clock_text(shown->seconds), shown->frame, last)
-            : "  no frame yet";
+  std::string where = shown ? fmt::format("  {}   frame {} of {}",
+                                          files::clock_text(shown->seconds, 2), shown->frame, last)
+                            : "  no frame yet";
   if (status.busy && !status.playing) where += fmt::format(", at {} ...", status.working_on);
   where_->setCaption(where);
 

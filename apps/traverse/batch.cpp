@@ -219,8 +219,7 @@ void add_metrics(CLI::App& batch) {
   CLI::App* command = batch.add_subcommand("metrics", "list the metrics that plans can name");
   command->callback([] {
     for (const batch::Metric& metric : batch::known_metrics()) {
-      fmt::print("{:<40}{}{}\n", metric.key, metric.title,
-                 metric.unit.empty() ? "" : " [" + metric.unit + "]");
+      fmt::print("{:<40}{}\n", metric.key, batch::with_unit(metric));
     }
   });
 }

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "traverse/files/number_text.hpp"
+
 namespace traverse::app {
 
 namespace {
@@ -41,10 +43,9 @@ void print_plan(const batch::Plan& plan) {
     }
   }
   const batch::RunLimits& limits = plan.limits;
-  fmt::print("limits a run\n  {:g} s, {}, {} thread{}, {} attempts if killed from outside\n",
-             limits.time_s,
+  fmt::print("limits a run\n  {:g} s, {}, {}, {} attempts if killed from outside\n", limits.time_s,
              limits.memory_mb > 0 ? fmt::format("{:g} MB", limits.memory_mb) : "no memory limit",
-             limits.threads, limits.threads == 1 ? "" : "s", limits.attempts);
+             files::plural(static_cast<std::size_t>(limits.threads), "thread"), limits.attempts);
   fmt::print("metrics\n  {} (ranks)", plan.metrics.front());
   for (std::size_t i = 1; i < plan.metrics.size(); ++i) fmt::print(", {}", plan.metrics[i]);
   fmt::print("\n");

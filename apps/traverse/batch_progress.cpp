@@ -9,32 +9,22 @@
 #include <fmt/format.h>
 
 #include "traverse/batch/execute.hpp"
+#include "traverse/files/number_text.hpp"
 
+#include "progress_bar.hpp"
 #include "standard_streams.hpp"
 
 namespace traverse::app {
 
+using files::clock_text;
+
 namespace {
 
-constexpr std::size_t kBarWidth = 30;
 constexpr std::size_t kMostRunningLines = 16;
 constexpr std::chrono::milliseconds kRedrawInterval{250};
 
-std::string clock_text(double seconds) {
-  const auto whole = static_cast<long>(seconds + 0.5);
-  return whole < 3600 ? fmt::format("{}:{:02d}", whole / 60, whole % 60)
-                      : fmt::format("{}:{:02d}:{:02d}", whole / 3600, whole / 60 % 60, whole % 60);
-}
-
 double share_of(const batch::BatchState& state) {
   return state.to_do == 0 ? 1 : static_cast<double>(state.made) / static_cast<double>(state.to_do);
-}
-
-std::string bar_text(double share) {
-  const auto full = static_cast<std::size_t>(share * static_cast<double>(kBarWidth));
-  std::string bar;
-  for (std::size_t i = 0; i < kBarWidth; ++i) bar += i < full ? "█" : "░";
-  return bar;
 }
 
 std::size_t not_ok(const batch::BatchState& state) {

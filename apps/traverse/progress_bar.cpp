@@ -6,20 +6,20 @@
 
 #include <fmt/format.h>
 
+#include "traverse/files/number_text.hpp"
+
 #include "standard_streams.hpp"
 
 namespace traverse::app {
+
+using files::clock_text;
 
 namespace {
 
 constexpr std::size_t kBarWidth = 30;
 constexpr std::chrono::milliseconds kRedrawInterval{100};
 
-std::string clock_text(double seconds) {
-  const auto whole = static_cast<long>(seconds + 0.5);
-  return whole < 3600 ? fmt::format("{}:{:02d}", whole / 60, whole % 60)
-                      : fmt::format("{}:{:02d}:{:02d}", whole / 3600, whole / 60 % 60, whole % 60);
-}
+}  // namespace
 
 std::string bar_text(double share) {
   const auto full = static_cast<std::size_t>(share * static_cast<double>(kBarWidth));
@@ -27,8 +27,6 @@ std::string bar_text(double share) {
   for (std::size_t i = 0; i < kBarWidth; ++i) bar += i < full ? "█" : "░";
   return bar;
 }
-
-}  // namespace
 
 ProgressBar::ProgressBar(std::string label, std::size_t total, std::string unit)
     : label_(std::move(label)),

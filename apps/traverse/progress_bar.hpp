@@ -7,6 +7,9 @@
 
 namespace traverse::app {
 
+/// "██████░░░░", thirty wide, for a share from 0 to 1.
+std::string bar_text(double share);
+
 /// Shows on stderr how far long work has come, at what rate, and how long it still takes.
 ///
 /// On a terminal a bar that redraws itself at most ten times a second; elsewhere (a log) a plain

@@ -19,6 +19,7 @@
 #include "traverse/dataset/trajectory_files.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
+#include "traverse/files/number_text.hpp"
 #include "traverse/pipeline/run_destination.hpp"
 #include "traverse/pipeline/utm_trajectory.hpp"
 
@@ -110,8 +111,8 @@ class RunStage {
     const char* what = is_drawing_   ? "the run is complete; its report is left out"
                        : is_writing_ ? "writing what was estimated, without pictures"
                                      : "writing what is done so far, without pictures";
-    return fmt::format("stopping: {}, {} frame{}; Ctrl-C again ends at once", what, frames_.load(),
-                       frames_ == 1 ? "" : "s");
+    return fmt::format("stopping: {}, {}; Ctrl-C again ends at once", what,
+                       files::plural(frames_, "frame"));
   }
 
  private:
@@ -267,15 +268,15 @@ void finish_run(const RunArguments& arguments, pipeline::RunDestination& destina
     if (has_frames && arguments.report) {
       fmt::print("no report was made: `traverse report {}` makes it\n", folder.path.string());
     }
-    fmt::print("interrupted: {}, {} frame{}; {}\n",
+    fmt::print("interrupted: {}, {}; {}\n",
                record.status == RunStatus::kOk ? "the run is complete" : record.reason,
-               record.frames_used, record.frames_used == 1 ? "" : "s", stands);
+               files::plural(record.frames_used, "frame"), stands);
     throw CLI::RuntimeError(stop.exit_status());
   }
   if (record.status == RunStatus::kFailed) {
     if (!has_frames) throw std::runtime_error(record.reason);
-    throw std::runtime_error(fmt::format("{}; {} frame{} before that {} kept: {}", record.reason,
-                                         record.frames_used, record.frames_used == 1 ? "" : "s",
+    throw std::runtime_error(fmt::format("{}; {} before that {} kept: {}", record.reason,
+                                         files::plural(record.frames_used, "frame"),
                                          record.frames_used == 1 ? "is" : "are", stands));
   }
   if (!destination.why_beside().empty()) {

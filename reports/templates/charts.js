@@ -2,29 +2,10 @@
 // that share the axis, a click takes the whole page to that moment.
 "use strict";
 (() => {
-  const kSeries = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7a7a7a", "#8c6d31"];
-  const views = [];
+  const { element, button } = traverse;
   const linked = [];  // those over time or distance
   let overDistance = false;
   let busy = false;
-
-  const element = (name, className, text) => {
-    const result = document.createElement(name);
-    if (className) result.className = className;
-    if (text) result.textContent = text;
-    return result;
-  };
-
-  const button = (text, action) => {
-    const result = element("button", "", text);
-    result.type = "button";
-    result.addEventListener("click", action);
-    return result;
-  };
-
-  const ink = () => traverse.dark.matches
-    ? { axis: "#5b6069", grid: "#2c3038" }
-    : { axis: "#a2a8b3", grid: "#e6e8ec" };
 
   /** Poses of the chart's values and their places on the axis. */
   const posesOf = (chart) => chart.pose ?? traverse.report.poses.time_s.map((_, i) => i);
@@ -58,20 +39,13 @@
 
   const readout = (view, row) => {
     const { chart, poses, axis } = view;
-    view.readout.replaceChildren();
-    if (row === null) return;
-    const where = chart.x ? `${chart.x_name} ${traverse.short(axis[row])}` : traverse.describe(poses[row]);
-    view.readout.append(element("span", "where", where));
-    chart.series.forEach((series, k) => {
-      const item = element("span", "value");
-      const swatch = element("i");
-      swatch.style.background = kSeries[k % kSeries.length];
-      const number = element("b", "", traverse.short(series.values[row]));
-      number.dataset.value = String(series.values[row]);
-      item.append(swatch, ` ${series.name} `, number, ` ${chart.unit}`);
-      view.readout.append(item);
-    });
-    view.element.dataset.row = row;
+    if (row === null) {
+      view.shown.tell(null);
+      return;
+    }
+    view.shown.tell(chart.x ? `${chart.x_name} ${traverse.figure(axis[row])}` : traverse.describe(poses[row]),
+      chart.series.map((series, k) => ({ colour: traverse.colour(k), name: series.name, value: series.values[row], unit: chart.unit })));
+    view.shown.element.dataset.row = row;
   };
 
   /** The last row at or before that pose. */
@@ -84,8 +58,8 @@
   };
 
   const select = (view, row) => {
-    if (row === null) view.graph.clearSelection();
-    else view.graph.setSelection(row);
+    if (row === null) view.shown.graph.clearSelection();
+    else view.shown.graph.setSelection(row);
     readout(view, row);
   };
 
@@ -97,15 +71,16 @@
   const zoom = (source, range) => {
     if (busy) return;
     busy = true;
-    for (const view of linked) if (view !== source) view.graph.updateOptions({ dateWindow: range });
+    for (const view of linked) if (view !== source) view.shown.graph.updateOptions({ dateWindow: range });
     busy = false;
   };
 
   /** The line at the moment that the page looks at; an element, so that moving it draws nothing. */
   const markMoment = (view) => {
+    const { graph } = view.shown;
     const row = rowOfPose(view, traverse.pose);
-    const x = row === null || !view.graph ? NaN : view.graph.toDomXCoord(view.axis[row]);
-    const area = view.graph?.getArea();
+    const x = row === null || !graph ? NaN : graph.toDomXCoord(view.axis[row]);
+    const area = graph?.getArea();
     view.mark.hidden = !(area && x >= area.x - 1 && x <= area.x + area.w + 1);
     if (!view.mark.hidden) view.mark.style.left = `${x}px`;
   };
@@ -116,40 +91,27 @@
     return [axis[0], axis[axis.length - 1] || 1];
   };
 
-  // The library's own labels round small numbers until neighbours look alike.
-  const axisLabel = (value) => String(Number(value.toPrecision(4))).replace("-", "−");
-
   const makeView = (chart, place) => {
-    const view = { chart, poses: posesOf(chart), element: element("figure", "chart") };
+    const view = { chart, poses: posesOf(chart), mark: element("div", "moment-mark") };
     view.axis = axisOf(chart, view.poses);
     view.rowOfPose = new Map(view.poses.map((pose, row) => [pose, row]));
-    view.element.id = `chart-${chart.id}`;
-    const head = element("div", "chart-head");
-    head.append(element("h4", "", chart.unit ? `${chart.title} [${chart.unit}]` : chart.title));
-    view.readout = element("div", "readout");
-    const canvas = element("div", "plot");
-    view.below = element("div", "axis-name", chart.x_name ?? "time [s]");
-    view.mark = element("div", "moment-mark");
-    const plot = element("div", "plot-with-mark");
-    plot.append(canvas);
-    if (!chart.x) plot.append(view.mark);
-    view.element.append(head, view.readout, plot, view.below);
-    place.append(view.element);
+    const figure = element("figure", "chart");
+    figure.id = `chart-${chart.id}`;
+    view.shown = traverse.chart(figure, chart.unit ? `${chart.title} [${chart.unit}]` : chart.title, chart.x_name ?? "time [s]");
+    if (!chart.x) view.shown.plot.append(view.mark);
+    place.append(figure);
     const names = chart.series.map((series) => series.name || "value");
     const options = {
       labels: [chart.x ? chart.x_name : "x", ...names, ...(chart.level ? [chart.level.name] : [])],
-      colors: [...names.map((_, k) => kSeries[k % kSeries.length]), ...(chart.level ? ["#8a8f98"] : [])],
-      legend: "never", logscale: chart.log, fillGraph: chart.stacked, strokeWidth: 1.5,
-      drawPoints: chart.points, pointSize: 2.5, highlightCircleSize: 4, animatedZooms: false,
-      axes: { x: { axisLabelFormatter: axisLabel }, y: { axisLabelFormatter: axisLabel } },
-      axisLabelFontSize: 12, axisLineColor: ink().axis, gridLineColor: ink().grid, rightGap: 12,
+      colors: [...names.map((_, k) => traverse.colour(k)), ...(chart.level ? ["#8a8f98"] : [])],
+      logscale: chart.log, fillGraph: chart.stacked, drawPoints: chart.points,
       includeZero: !chart.log && chart.series.every((s) => s.values.every((v) => v === null || v >= 0)),
       connectSeparatedPoints: false, customBars: hasBand(chart), fillAlpha: 0.15,
       highlightCallback: (event, x, points, row) => (chart.x ? readout(view, row) : hover(view, row)),
       unhighlightCallback: () => (chart.x ? readout(view, null) : hover(view, rowOfPose(view, traverse.pose) ?? 0)),
       zoomCallback: (least, most) => { if (!chart.x) zoom(view, [least, most]); },
-      clickCallback: (event) => {
-        const row = view.graph.getSelection();
+      clickCallback: () => {
+        const row = view.shown.graph.getSelection();
         if (row >= 0 && view.poses[row] !== undefined && chart.id.indexOf("kitti") !== 0) {
           traverse.look(view.poses[row], chart.id);
         }
@@ -159,21 +121,20 @@
     if (chart.level) options.series = { [chart.level.name]: { strokePattern: [6, 4], strokeWidth: 1, drawPoints: false, fillGraph: false } };
     if (chart.x) options.xRangePad = 6;
     else options.dateWindow = wholeRun();
-    view.graph = new Dygraph(canvas, rowsOf(chart, view.poses), options);
+    view.shown.draw(rowsOf(chart, view.poses), options);
     if (!chart.x) {
       linked.push(view);
       // A double click shows the whole run again in every chart.
-      canvas.addEventListener("dblclick", () => zoom(null, wholeRun()));
+      view.shown.canvas.addEventListener("dblclick", () => zoom(null, wholeRun()));
     }
-    return view;
   };
 
   const setAxis = (distance) => {
     overDistance = distance;
     for (const view of linked) {
       view.axis = axisOf(view.chart, view.poses);
-      view.below.textContent = distance ? "distance [m]" : "time [s]";
-      view.graph.updateOptions({ file: rowsOf(view.chart, view.poses), dateWindow: wholeRun() });
+      view.shown.below.textContent = distance ? "distance [m]" : "time [s]";
+      view.shown.graph.updateOptions({ file: rowsOf(view.chart, view.poses), dateWindow: wholeRun() });
     }
     for (const choice of document.querySelectorAll(".axis-choice button")) {
       choice.setAttribute("aria-pressed", String((choice.dataset.axis === "distance") === distance));
@@ -198,7 +159,7 @@
     if (charts.length === 0) continue;
     place.hidden = false;
     if (charts.some((chart) => !chart.x)) place.append(axisChoice());
-    for (const chart of charts) views.push(makeView(chart, place));
+    for (const chart of charts) makeView(chart, place);
   }
   document.documentElement.classList.add("has-charts");
 
@@ -209,8 +170,5 @@
     }
   };
   traverse.follow(follow);
-  traverse.dark.addEventListener("change", () => {
-    for (const view of views) view.graph.updateOptions({ axisLineColor: ink().axis, gridLineColor: ink().grid });
-  });
   follow();
 })();

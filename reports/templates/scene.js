@@ -77,7 +77,7 @@
       control("moment").value = pose;
       const error = scene.error_m ? scene.error_m[pose] : null;
       control("moment-text").textContent = traverse.describe(pose) +
-        (error !== null ? ` · error ${traverse.short(error)} m` : "");
+        (error !== null ? ` · error ${traverse.figure(error)} m` : "");
       stage.dataset.pose = pose;
       changed();
     };

@@ -29,7 +29,7 @@ const sceneColours = (() => {
   };
 
   /** A scale in words. */
-  const told = (what, unit, scale) => `${what}: ${traverse.short(scale.low)} to ${traverse.short(scale.high)} ${unit} (2nd to 98th percentile)`;
+  const told = (what, unit, scale) => `${what}: ${traverse.figure(scale.low)} to ${traverse.figure(scale.high)} ${unit} (2nd to 98th percentile)`;
 
   return { viridis, cividis, paint, told };
 })();

@@ -27,7 +27,7 @@ const sceneMeasure = (() => {
       rule.visible = ends.length === 2;
       if (rule.visible) {
         const d = ends[1].clone().sub(ends[0]);
-        told.textContent = `${traverse.short(d.length())} m (x ${traverse.short(d.x)}, y ${traverse.short(d.y)}, z ${traverse.short(d.z)} m)`;
+        told.textContent = `${traverse.figure(d.length())} m (x ${traverse.figure(d.x)}, y ${traverse.figure(d.y)}, z ${traverse.figure(d.z)} m)`;
         rule.geometry.setFromPoints(ends);
       } else {
         told.textContent = "click the second point";

@@ -73,8 +73,8 @@ TEST(Summary, TellsRepeatsThatDiffer) {
 }
 
 TEST(Summary, LatexMarksTheBestAndEscapes) {
-  const std::string latex =
-      leaderboard_latex(summarise(made_results(), {}, kApe), {kApe, "kitti_translation_percent"});
+  const std::string latex = to_latex(
+      leaderboard(summarise(made_results(), {}, kApe), {kApe, "kitti_translation_percent"}));
   EXPECT_THAT(latex, HasSubstr("\\textbf{0.100}"));
   EXPECT_THAT(latex, HasSubstr("KITTI drift, all segments [\\%]"));
   EXPECT_THAT(latex, HasSubstr("KITTI drift, mean of recordings [\\%]"));

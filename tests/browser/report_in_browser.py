@@ -163,6 +163,20 @@ def export_tables(browser, folder):
                 assert text == written, (table, text, written)
 
 
+def assert_numbers_are_written_alike(browser):
+    """Scripts write numbers as the program does: every cell of the page's tables, and ties."""
+    wrong = browser.js("""[...document.querySelectorAll('table[data-table] td.n[title]')].filter((cell) => {
+        const value = Number(cell.title);
+        const text = cell.textContent.replace(/ ±.*/, '');
+        return Number.isFinite(value) && text !== traverse.short(value) && text !== traverse.count(value);
+    }).map((cell) => `${cell.title}: ${cell.textContent}`)""")
+    assert wrong == [], wrong
+    for value, text in ((0.125, "0.125"), (12.25, "12.2"), (12.75, "12.8"), (1225000, "1.22e+06"), (106.25, "106.2"),
+                        (-2.008, "−2.01"), (1.23e-5, "1.23e-05"), (0, "0")):
+        assert browser.js(f"traverse.short({value})") == text, (value, browser.js(f"traverse.short({value})"))
+    assert browser.js("traverse.count(12345)") == "12\u2009345"
+
+
 def test_made_run(folder):
     report = made_report(folder, "--export", os.path.join(folder, "tables"))
     with Browser() as browser:
@@ -170,6 +184,7 @@ def test_made_run(folder):
         is_ready(browser)
         use_page(browser, report)
         export_tables(browser, os.path.join(folder, "tables"))
+        assert_numbers_are_written_alike(browser)
         assert_sound(browser, report)
         assert browser.js("document.querySelectorAll('main script, h1 script').length") == 0
         assert "<script>alert('x')</script>" in browser.js("document.title")
@@ -227,6 +242,101 @@ def test_opens_fast(folder):
         browser.open(report)
         is_ready(browser)
         assert_sound(browser, report)
+
+
+def test_compared_runs(folder):
+    runs = [os.path.join(folder, name) for name in ("a", "b")]
+    for run in runs:
+        subprocess.run([MAKE_RUN, run], check=True)
+    page = pathlib.Path(folder, "compare.html")
+    subprocess.run([PROGRAM, "compare", *runs, "-o", str(page)], check=True, stdout=subprocess.DEVNULL)
+    with Browser() as browser:
+        browser.open(page)
+        browser.wait("document.documentElement.classList.contains('has-charts')")
+        sections = browser.js("[...document.querySelectorAll('main > section')].map((s) => s.id)")
+        assert sections == ["verdict", "trajectories", "errors", "stretches", "settings"], sections
+        assert browser.js("[...document.querySelectorAll('nav a')].map((a) => a.getAttribute('href').slice(1))") == sections
+        assert_numbers_are_written_alike(browser)
+        x, y = browser.place("#chart-ape_rmse_m .plot", 0.5, 0.5)
+        browser.mouse("mouseMoved", x, y)
+        assert len(browser.js("[...document.querySelectorAll('#chart-ape_rmse_m .readout b')].map((b) => b.dataset.value)")) == 2
+        assert_sound(browser, page)
+
+
+BATCH = """recordings:
+  - {simulate: town_short, arguments: {first: 60, duration: 1.5}, seeds: [1, 2]}
+pipelines: [floam]
+grid: {solver.huber_m: [0.1, 0.2]}
+repeats: 3
+reports: false
+metrics: [ape_translation_rmse, mme, frame_median_ms]
+tables: [{title: As asked, text: Words above it.}]
+"""
+
+
+def painted(browser, chart):
+    """How many pixels of a chart's canvases are not empty."""
+    return browser.js(f"""[...document.querySelectorAll('{chart} canvas')].map((canvas) => {{
+        const data = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+        let painted = 0;
+        for (let i = 3; i < data.length; i += 4) painted += data[i] > 0;
+        return painted;
+    }}).reduce((a, b) => a + b, 0)""")
+
+
+def choose(browser, name, value):
+    browser.js(f"(() => {{ const choice = document.querySelector('[data-choice=\"{name}\"]');"
+               f"choice.value = '{value}'; choice.dispatchEvent(new Event('change')); }})()")
+
+
+def test_batch(folder):
+    plan = pathlib.Path(folder, "plan.yaml")
+    plan.write_text(BATCH)
+    subprocess.run([PROGRAM, "batch", str(plan), "-o", os.path.join(folder, "out")], check=True,
+                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    page = pathlib.Path(folder, "out/batch.html")
+    with Browser() as browser:
+        browser.open(page)
+        browser.wait("document.documentElement.classList.contains('has-charts')")
+        runs = json.loads(browser.js("document.getElementById('report-data').textContent"))["runs"]
+        assert len(runs) == 12
+        shown = "document.querySelectorAll('[data-content=\"runs\"] tbody tr').length"
+        assert browser.js(shown) == 12
+        browser.js("(() => { const filter = document.querySelector('[data-content=\"runs\"] input');"
+                   "filter.value = 'seed2 huber_m=0.1'; filter.dispatchEvent(new Event('input')); })()")
+        assert browser.js(shown) == 3
+        assert "3 of 12 rows" in browser.js("document.querySelector('[data-content=\"runs\"] .count').textContent")
+        heads = "document.querySelectorAll('[data-content=\"matrix\"] th')"
+        browser.js(f"{heads}[1].querySelector('button').click()")
+        column = browser.js("[...document.querySelectorAll('[data-content=\"matrix\"] tbody tr')].map((row) => Number(row.cells[1].title))")
+        assert column == sorted(column) and len(column) == 2, column
+        assert browser.js("document.querySelector('#tables h4').textContent") == "As asked"
+        assert len(browser.js("[...document.querySelectorAll('#tables table')].map((t) => t.id)")) == 2, "a recording each"
+
+        # Boxes: painted, read out under the pointer, and other ones on another choice.
+        before = painted(browser, "#boxes")
+        assert before > 500, before
+        value = runs[0]["values"][0]
+        x, y = browser.place("#boxes .plot", 0.3, 0.5)
+        browser.mouse("mouseMoved", x, y)
+        told = browser.js("[...document.querySelectorAll('#boxes .readout b')].map((b) => Number(b.dataset.value))")
+        assert len(told) == 4 and told[2] <= told[1] <= told[3], told
+        assert any(abs(told[0] - run["values"][0]) < 1e-12 for run in runs), (told, value)
+        choose(browser, "scale", "log")
+        assert painted(browser, "#boxes") != before
+        choose(browser, "groups", "all")
+        assert browser.js("[...document.querySelectorAll('#boxes .dygraph-axis-label-x')].map((l) => l.textContent)") == ["all recordings"]
+
+        # The sweep: a line for the mean and one for each recording, read out at a value of the grid.
+        x, y = browser.place("#sweep-chart .plot", 0.95, 0.5)
+        browser.mouse("mouseMoved", x, y)
+        assert browser.js("document.querySelector('#sweep-chart .where').textContent") == "solver.huber_m 0.2"
+        mean = float(browser.js("document.querySelector('#sweep-chart .readout b').dataset.value"))
+        last = [run["values"][0] for run in runs if run["variant"] == [
+            k for k, v in enumerate(json.loads(browser.js("document.getElementById('report-data').textContent"))["variants"])
+            if v["settings"] == ["solver.huber_m=0.2"]][0]]
+        assert abs(mean - sum(last) / len(last)) < 1e-12, (mean, last)
+        assert_sound(browser, page)
 
 
 def living(group):

@@ -14,7 +14,7 @@ using ::testing::Not;
 std::string rendered_factors(const RunData& run) {
   Model model;
   add_factors(run, model);
-  kainjow::mustache::mustache text(
+  return model.page.fill(
       "{{jacobians_kind}} {{jacobians_text}} "
       "{{jacobians_how}} {{jacobians_formulas}}\n"
       "{{#table_jacobians}}{{#rows}}{{#cells}}{{{text}}};{{/cells}}\n{{/rows}}{{/table_jacobians}}"
@@ -23,7 +23,6 @@ std::string rendered_factors(const RunData& run) {
       "{{/table_derivative_evaluations}}"
       "{{#table_derivative_solves}}{{#rows}}{{#cells}}{{{text}}};{{/cells}}\n{{/rows}}{{/"
       "table_derivative_solves}}");
-  return text.render(model.page);
 }
 
 optimization::JacobianAudit made_audit(bool passed) {

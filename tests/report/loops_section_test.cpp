@@ -12,13 +12,12 @@ using ::testing::HasSubstr;
 std::string rendered_loops(const RunData& run) {
   Model model;
   add_loops(run, model);
-  kainjow::mustache::mustache text(
+  return model.page.fill(
       "{{loops_how}}\n"
       "{{#table_loop_outcomes}}{{#rows}}{{#cells}}{{{text}}};{{/cells}}\n{{/rows}}"
       "{{/table_loop_outcomes}}"
       "{{#table_loop_residuals}}{{#rows}}{{#cells}}{{{text}}};{{/cells}}\n{{/rows}}"
       "{{/table_loop_residuals}}");
-  return text.render(model.page);
 }
 
 slam::Loop made_loop(slam::LoopVerdict verdict, double overlap, double graph_chi2) {

@@ -40,8 +40,7 @@ TEST(ReportSections, EachHasItsTemplateAndEachTemplateItsSection) {
     EXPECT_TRUE(of_table.insert(std::string(section.id) + ".html").second) << section.id;
   }
   std::set<std::string> of_folder;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::string(kTemplates) + "/sections")) {
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(kTemplates) + "/run")) {
     of_folder.insert(entry.path().filename().string());
   }
   EXPECT_EQ(of_table, of_folder);

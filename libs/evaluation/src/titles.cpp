@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "traverse/files/number_text.hpp"
+
 namespace traverse::evaluation {
 
 namespace {
@@ -23,7 +25,7 @@ std::string alignment_title(AlignmentMode mode) {
 }
 
 std::string counted(std::size_t count, std::string_view singular) {
-  return fmt::format("{} {}{}", count, singular, count == 1 ? "" : "s");
+  return fmt::format("{} {}", count, files::noun(count, singular));
 }
 
 bool has_scale(AlignmentMode mode) {

@@ -48,7 +48,8 @@ class ResultWriter {
     if (baseline_) baseline = baseline_->compare(results_, plan_.metrics);
     write_csv(folder_.results_csv(), results_);
     write_json(folder_.results_json(), plan_, results_);
-    files::write_text(folder_.leaderboard_tex(), leaderboard_latex(variants, plan_.metrics));
+    files::write_text(folder_.leaderboard_tex(),
+                      page::to_latex(leaderboard(variants, plan_.metrics)));
     files::write_text(
         folder_.report(),
         batch_page({plan_, results_, variants, baseline, options_.command}, options_.templates));

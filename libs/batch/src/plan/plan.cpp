@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "traverse/batch/metric.hpp"
+#include "traverse/files/number_text.hpp"
 #include "traverse/files/numbers.hpp"
 #include "traverse/files/text_file.hpp"
 
@@ -168,7 +169,7 @@ std::string describe(const Plan& plan) {
     return n == kBeyondCount ? "more than can be counted" : fmt::format("{}", n);
   };
   const auto noun = [&](std::size_t n, const char* word) {
-    return fmt::format("{} {}{}", number(n), word, n == 1 ? "" : "s");
+    return fmt::format("{} {}", number(n), files::noun(n, word));
   };
   return fmt::format("{} x {} ({} with the grid) x {} = {}", noun(recordings, "recording"),
                      noun(plan.pipelines.size(), "pipeline"), number(variants),

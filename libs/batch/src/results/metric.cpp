@@ -170,6 +170,10 @@ const Metric* find_metric(std::string_view key) {
   return found == metrics.end() ? nullptr : &*found;
 }
 
+std::string with_unit(const Metric& metric) {
+  return metric.unit.empty() ? metric.title : fmt::format("{} [{}]", metric.title, metric.unit);
+}
+
 std::vector<std::string> default_metrics() {
   return {"ape_translation_rmse",      "ape_angle_deg_rmse",
           "rpe_10f_translation_rmse",  "rpe_10f_angle_deg_rmse",

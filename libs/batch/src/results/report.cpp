@@ -1,17 +1,18 @@
 #include "results/report.hpp"
 
 #include <algorithm>
-#include <kainjow/mustache.hpp>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "traverse/batch/batch_folder.hpp"
 #include "traverse/batch/metric.hpp"
-#include "traverse/files/input_error.hpp"
-#include "traverse/files/text_file.hpp"
+#include "traverse/files/number_text.hpp"
+#include "traverse/page/html_page.hpp"
+#include "traverse/page/table.hpp"
 #include "traverse/pipeline/provenance.hpp"
 
 #include "results/report_data.hpp"
@@ -20,29 +21,11 @@ namespace traverse::batch {
 
 namespace {
 
-using TemplateData = kainjow::mustache::data;
+using files::plural;
+using files::short_number;
+using page::Data;
 
 constexpr std::size_t kMostListedRuns = 200;
-
-std::string plural(std::size_t count, const std::string& noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
-/// Three significant digits, plainly where a person would.
-std::string number_text(double value) {
-  std::string text = fmt::format("{:.3g}", value);
-  if (text.starts_with('-')) text = "\u2212" + text.substr(1);
-  return text;
-}
-
-std::string in_uri(const std::string& text) {
-  std::string uri;
-  for (const char c : text) {
-    const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-    uri += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  }
-  return uri;
-}
 
 struct Counts {
   std::size_t ok = 0;
@@ -71,7 +54,7 @@ std::string leader(const ReportData& data) {
   const auto mean = data.variants.front().means.find(metric.key);
   if (mean == data.variants.front().means.end()) return "";
   return fmt::format("; {} leads with {}{} {}", data.variants.front().variant,
-                     number_text(mean->second), metric.unit.empty() ? "" : " " + metric.unit,
+                     short_number(mean->second), metric.unit.empty() ? "" : " " + metric.unit,
                      metric.title);
 }
 
@@ -83,9 +66,9 @@ std::string verdict(const ReportData& data, const Counts& counts) {
   return text + ".";
 }
 
-void add_headline(TemplateData& list, const std::string& label, const std::string& value,
+void add_headline(Data& list, const std::string& label, const std::string& value,
                   const std::string& unit, const std::string& how) {
-  TemplateData entry;
+  Data entry;
   entry.set("label", label);
   entry.set("value", value);
   entry.set("unit", unit);
@@ -93,8 +76,8 @@ void add_headline(TemplateData& list, const std::string& label, const std::strin
   list.push_back(entry);
 }
 
-TemplateData headlines(const ReportData& data, const Counts& counts) {
-  TemplateData list{TemplateData::type::list};
+Data headlines(const ReportData& data, const Counts& counts) {
+  Data list = Data::list();
   add_headline(list, "Runs ok", std::to_string(counts.ok),
                fmt::format("of {}", data.results.jobs().size()),
                counts.finished < data.results.jobs().size()
@@ -104,21 +87,21 @@ TemplateData headlines(const ReportData& data, const Counts& counts) {
   add_headline(
       list, "Pipelines", std::to_string(data.variants.size()), "",
       fmt::format("at every point of the grid, {} of the plan", data.plan.pipelines.size()));
-  add_headline(list, "Work", number_text(counts.run_seconds / 60), "min",
+  add_headline(list, "Work", short_number(counts.run_seconds / 60), "min",
                "wall time of all runs together");
   return list;
 }
 
-void add_notice(TemplateData& list, const std::string& kind, const std::string& word,
+void add_notice(Data& list, const std::string& kind, const std::string& word,
                 const std::string& text) {
-  TemplateData entry;
+  Data entry;
   entry.set("kind", kind);
   entry.set("word", word + ":");
   entry.set("text", text);
   list.push_back(entry);
 }
 
-void add_baseline_notice(const BaselineComparison& baseline, TemplateData& list) {
+void add_baseline_notice(const BaselineComparison& baseline, Data& list) {
   std::map<Verdict, std::size_t> verdicts;
   for (const OkChange& change : baseline.ok) ++verdicts[change.verdict];
   for (const Change& change : baseline.changes) ++verdicts[change.verdict];
@@ -132,8 +115,8 @@ void add_baseline_notice(const BaselineComparison& baseline, TemplateData& list)
   add_notice(list, regressed > 0 ? "fail" : "good", "Against the baseline", text);
 }
 
-TemplateData notices(const ReportData& data, const Counts& counts) {
-  TemplateData list{TemplateData::type::list};
+Data notices(const ReportData& data, const Counts& counts) {
+  Data list = Data::list();
   const std::size_t rows = data.results.jobs().size();
   if (counts.finished < rows) {
     add_notice(list, "warn", "Unfinished",
@@ -150,7 +133,7 @@ TemplateData notices(const ReportData& data, const Counts& counts) {
   if (!data.plan.budgets.empty()) {
     std::vector<std::string> parts;
     for (const Budget& budget : data.plan.budgets) {
-      parts.push_back(fmt::format("{} at most {}", budget.metric, number_text(budget.most)));
+      parts.push_back(fmt::format("{} at most {}", budget.metric, short_number(budget.most)));
     }
     add_notice(list, counts.over_budget > 0 ? "fail" : "good",
                counts.over_budget > 0 ? "Fail" : "Pass",
@@ -172,19 +155,19 @@ TemplateData notices(const ReportData& data, const Counts& counts) {
 }
 
 /// Runs that ended the same way for the same reason.
-TemplateData failures(const ReportData& data) {
+Data failures(const ReportData& data) {
   std::map<std::tuple<Outcome, std::string>, std::vector<const Job*>> groups;
   for (const Job& job : data.results.jobs()) {
     const Completion* completion = data.results.find(job);
     if (completion == nullptr || completion->outcome == Outcome::kOk) continue;
     groups[{completion->outcome, completion->reason}].push_back(&job);
   }
-  TemplateData list{TemplateData::type::list};
+  Data list = Data::list();
   for (const auto& [group, jobs] : groups) {
-    TemplateData runs{TemplateData::type::list};
+    Data runs = Data::list();
     const std::size_t listed = std::min(jobs.size(), kMostListedRuns);
     for (std::size_t i = 0; i < listed; ++i) {
-      TemplateData run;
+      Data run;
       run.set("folder", "runs/" + BatchFolder::run_name(jobs[i]->id));
       run.set("title", jobs[i]->title());
       run.set("separator", i + 1 < listed ? "; "
@@ -193,7 +176,7 @@ TemplateData failures(const ReportData& data) {
                                : "");
       runs.push_back(run);
     }
-    TemplateData entry;
+    Data entry;
     entry.set("outcome", std::string(name_of(std::get<0>(group))));
     entry.set("reason", std::get<1>(group));
     entry.set("count", plural(jobs.size(), "run"));
@@ -205,78 +188,71 @@ TemplateData failures(const ReportData& data) {
   return list;
 }
 
-TemplateData made(const ReportData& data) {
+page::Table made(const ReportData& data) {
   const pipeline::BuildInfo build = pipeline::build_info();
   const pipeline::HostInfo host = pipeline::host_info();
-  TemplateData list{TemplateData::type::list};
-  const auto add = [&](const std::string& name, const std::string& value) {
-    TemplateData entry;
-    entry.set("name", name);
-    entry.set("value", value);
-    list.push_back(entry);
-  };
+  page::Table table("made", "How this was made", {"what", "value"});
   const RunLimits& limits = data.plan.limits;
-  add("Plan", data.plan.file.string());
-  add("Runs", describe(data.plan));
-  add("Limits of a run", fmt::format("{:g} s, {}, {}", limits.time_s,
-                                     limits.memory_mb > 0 ? fmt::format("{:g} MB", limits.memory_mb)
-                                                          : "no memory limit",
-                                     plural(static_cast<std::size_t>(limits.threads), "thread")));
-  add("Program", fmt::format("Traverse {} at {}, {}, {}", build.version, build.commit,
-                             build.build_type, build.compiler));
-  add("Report made on",
-      fmt::format("{}, {}, {} logical CPUs", host.name, host.cpu, host.logical_cpus));
-  return list;
+  table.add_row({"plan", data.plan.file.string()});
+  table.add_row({"runs", describe(data.plan)});
+  table.add_row({"limits of a run",
+                 fmt::format("{:g} s, {}, {}", limits.time_s,
+                             limits.memory_mb > 0 ? fmt::format("{:g} MB", limits.memory_mb)
+                                                  : "no memory limit",
+                             plural(static_cast<std::size_t>(limits.threads), "thread"))});
+  table.add_row({"program", fmt::format("Traverse {}, commit {}, {}, {}", build.version,
+                                        build.commit, build.build_type, build.compiler)});
+  table.add_row({"report made on",
+                 fmt::format("{}: {}, {} logical CPUs", host.name, host.cpu, host.logical_cpus)});
+  return table;
 }
 
-std::string read_all(const std::filesystem::path& folder, const std::vector<const char*>& names) {
-  std::string text;
-  for (const char* name : names) text += files::read_text(folder / name);
-  return text;
+std::vector<page::Section> sections(const ReportData& data, const Counts& counts) {
+  const bool has_grid = std::any_of(data.variants.begin(), data.variants.end(),
+                                    [](const auto& variant) { return !variant.settings.empty(); });
+  std::vector<page::Section> sections{{"verdict", "Verdict"}, {"leaderboard", "Leaderboard"}};
+  if (data.baseline) sections.push_back({"baseline", "Against the baseline"});
+  sections.push_back({"recordings", "Recordings and pipelines"});
+  sections.push_back({"distribution", "Distribution"});
+  if (has_grid) sections.push_back({"sweep", "Parameter sweep"});
+  if (counts.finished > counts.ok) sections.push_back({"failures", "Failures"});
+  sections.push_back({"runs", "Runs"});
+  sections.push_back({"provenance", "Provenance"});
+  return sections;
 }
 
 }  // namespace
 
 std::string batch_page(const ReportData& data, const std::filesystem::path& templates) {
   const Counts counts = count(data);
-  TemplateData page;
-  page.set("program_version", pipeline::build_info().version);
-  page.set("name", data.plan.file.stem().string());
-  page.set("date", pipeline::utc_now().substr(0, 10));
-  page.set("style", read_all(templates, {"run.css", "batch.css"}));
-  page.set("script", read_all(templates, {"csv.js", "batch_tables.js", "batch_charts.js"}));
-  page.set("verdict", verdict(data, counts));
-  if (data.plan.description.empty()) {
-    page.set("description", false);
-  } else {
-    page.set("description", data.plan.description);
-  }
-  page.set("headlines", headlines(data, counts));
-  page.set("notices", notices(data, counts));
-  page.set("rank_title", find_metric(data.plan.metrics.front())->title);
-  page.set("latex_uri",
-           "data:application/x-tex," + in_uri(leaderboard_latex(data.variants, data.plan.metrics)));
-  page.set("has_baseline", data.baseline.has_value());
+  const std::string name = data.plan.file.stem().string();
+  Data parts;
+  parts.set("name", name);
+  parts.set("date", pipeline::utc_now().substr(0, 10));
+  parts.set("verdict", verdict(data, counts));
+  parts.set("description",
+            data.plan.description.empty() ? Data(false) : Data(data.plan.description));
+  parts.set("headlines", headlines(data, counts));
+  parts.set("notices", notices(data, counts));
+  parts.set("rank_title", find_metric(data.plan.metrics.front())->title);
   if (data.baseline) {
-    page.set("baseline_source", data.baseline->source);
-    page.set("baseline_rule", kBaselineRule);
+    parts.set("baseline_source", data.baseline->source);
+    parts.set("baseline_rule", kBaselineRule);
   }
-  page.set("has_grid", std::any_of(data.variants.begin(), data.variants.end(),
-                                   [](const auto& variant) { return !variant.settings.empty(); }));
-  page.set("has_failures", counts.finished > counts.ok);
-  page.set("failures", failures(data));
-  page.set("made", made(data));
-  page.set("plan", data.plan.text);
-  page.set("command", fmt::format("{}", fmt::join(data.command, " ")));
-  page.set("data", report_data_json(data));
+  parts.set("failures", failures(data));
+  parts.set("table_made", made(data).data());
+  parts.set("plan", data.plan.text);
+  parts.set("command", fmt::format("{}", fmt::join(data.command, " ")));
 
-  const std::filesystem::path file = templates / "batch.html";
-  kainjow::mustache::mustache page_template(files::read_text(file));
-  if (!page_template.is_valid()) {
-    throw files::InputError(file, files::Place::whole_file(), "a valid template",
-                            page_template.error_message());
-  }
-  return page_template.render(page);
+  page::HtmlPage page;
+  page.kind = "batch";
+  page.title = name + " · batch";
+  page.program_version = pipeline::build_info().version;
+  page.sections = sections(data, counts);
+  page.report_json = page::text_for_script(report_data_json(data));
+  page.scripts = {"dygraphs", "plot", "tables", "batch_tables", "batch_charts"};
+  page.styles = {"batch"};
+  return page::render(page, std::move(parts), templates);
 }
 
 }  // namespace traverse::batch

@@ -150,12 +150,7 @@ std::string report_data_json(const ReportData& data) {
   }
   json["runs"] = runs_json(data);
   json["baseline"] = data.baseline ? baseline_json(*data.baseline, data.plan) : Json(nullptr);
-  // Inside a script element only "</" and "<!" could be taken for markup.
-  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
-    text.replace(at, 1, "\\u003c");
-  }
-  return text;
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace traverse::batch

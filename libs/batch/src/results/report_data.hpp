@@ -6,8 +6,7 @@
 
 namespace traverse::batch {
 
-/// The numbers that the page's scripts draw from, as JSON that may stand inside an HTML script
-/// element.
+/// The numbers that the page's scripts draw from, as JSON.
 ///
 /// {
 ///   "metrics": [{"key", "title", "unit", "lower"}],

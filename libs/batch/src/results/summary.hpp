@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "traverse/batch/results.hpp"
+#include "traverse/page/table.hpp"
 
 namespace traverse::batch {
 
@@ -47,8 +48,8 @@ std::vector<VariantSummary> summarise(const Results& results, const std::vector<
 
 RepeatCheck check_repeats(const Results& results);
 
-/// The leaderboard as a LaTeX table (booktabs) with the given metrics and both KITTI averages.
-std::string leaderboard_latex(const std::vector<VariantSummary>& variants,
-                              const std::vector<std::string>& metrics);
+/// The leaderboard with the given metrics and both KITTI averages.
+page::Table leaderboard(const std::vector<VariantSummary>& variants,
+                        const std::vector<std::string>& metrics);
 
 }  // namespace traverse::batch

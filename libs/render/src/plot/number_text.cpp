@@ -12,19 +12,6 @@ namespace {
 
 constexpr const char* kMinus = "−";
 constexpr const char* kNoNumber = "–";
-constexpr const char* kThinSpace = "\u2009";
-constexpr std::size_t kUngrouped = 4;  // digits that need no spaces yet
-
-std::string grouped(const std::string& digits) {
-  if (digits.size() <= kUngrouped) return digits;
-  std::string text;
-  for (std::size_t i = 0; i < digits.size(); ++i) {
-    if (i > 0 && (digits.size() - i) % 3 == 0) text += kThinSpace;
-    text += digits[i];
-  }
-  return text;
-}
-
 /// Decimals that show `digits` significant digits of `value`.
 int decimals_for(double value, int digits) {
   if (value == 0) return 0;
@@ -42,7 +29,7 @@ std::string fixed_text(double value, int decimals) {
   const std::string text = fmt::format("{:.{}f}", std::abs(value), decimals);
   const std::size_t point = text.find('.');
   const bool is_zero = text.find_first_not_of("0.") == std::string::npos;
-  return (value < 0 && !is_zero ? kMinus : "") + grouped(text.substr(0, point)) +
+  return (value < 0 && !is_zero ? kMinus : "") + files::grouped(text.substr(0, point)) +
          (point == std::string::npos ? "" : text.substr(point));
 }
 
@@ -59,8 +46,6 @@ std::string value_text(double value, int digits) {
   const double unit = std::pow(10, -decimals);
   return fixed_text(std::round(value / unit) * unit, 0);
 }
-
-std::string count_text(std::size_t count) { return grouped(std::to_string(count)); }
 
 std::string power_of_ten_text(int exponent) {
   constexpr std::array<const char*, 10> kSuperscripts{"⁰", "¹", "²", "³", "⁴",

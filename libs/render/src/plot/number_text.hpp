@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "traverse/files/number_text.hpp"
+
 namespace traverse::render {
 
 /// `value` with `decimals` places, a true minus sign and thin spaces between thousands from five
@@ -12,8 +14,7 @@ std::string fixed_text(double value, int decimals);
 /// "0.184", "12.3", "1 230 000", "2.5·10⁻⁶".
 std::string value_text(double value, int digits = 3);
 
-/// A whole number with thin spaces between thousands from five digits on: "1 234 567", "1234".
-std::string count_text(std::size_t count);
+using files::count_text;
 
 /// "10⁻³".
 std::string power_of_ten_text(int exponent);

@@ -10,14 +10,14 @@
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/text_file.hpp"
+#include "traverse/page/html_page.hpp"
 #include "traverse/render/pictures/trajectory_from_above.hpp"
 #include "traverse/render/renderer.hpp"
 
 #include "charts/series.hpp"
 #include "comparison/comparison.hpp"
 #include "page/data_uri.hpp"
-#include "page/number_text.hpp"
-#include "page/page.hpp"
+#include "run/number_texts.hpp"
 
 namespace traverse::report {
 
@@ -127,46 +127,6 @@ std::string sentence(const Json& differences) {
   return text + fmt::format("{} without a change that is sure.", plural(unchanged, "figure"));
 }
 
-std::string text_cell(const Json& value) {
-  if (value.is_string()) return value;
-  if (value.is_null()) return "–";
-  return value.is_number_integer() ? value.dump() : short_number(value);
-}
-
-std::size_t shown_width(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
-  }));
-}
-
-/// A table of the JSON in aligned columns.
-std::string terminal_table(const Json& table) {
-  if (table.at("rows").empty()) return {};
-  std::vector<std::vector<std::string>> lines{table.at("columns")};
-  for (const Json& row : table.at("rows")) {
-    auto& line = lines.emplace_back();
-    for (const Json& value : row) line.push_back(text_cell(value));
-  }
-  std::vector<std::size_t> widths(lines.front().size(), 0);
-  for (const auto& line : lines) {
-    for (std::size_t k = 0; k < line.size(); ++k) {
-      widths[k] = std::max(widths[k], shown_width(line[k]));
-    }
-  }
-  std::string text = table.at("title").get<std::string>() + "\n";
-  for (const auto& line : lines) {
-    std::string row = " ";
-    for (std::size_t k = 0; k < line.size(); ++k) {
-      const std::string padding(widths[k] - shown_width(line[k]), ' ');
-      const bool number = !table.at("rows").front()[k].is_string();
-      row += " " + (number ? padding + line[k] : line[k] + padding) + " ";
-    }
-    row.erase(row.find_last_not_of(' ') + 1);
-    text += row + "\n";
-  }
-  return text + "\n";
-}
-
 /// The page and its numbers are replaced only where an earlier comparison stands.
 void require_own(const fs::path& page, const fs::path& numbers) {
   std::error_code failure;
@@ -210,28 +170,37 @@ std::string write_comparison(const std::vector<fs::path>& folders, const fs::pat
   }
   model.json["runs"] = std::move(names);
 
-  const ComparisonTables tables = comparison_tables(runs, options.threshold_percent);
-  for (const HtmlTable* table :
-       {&tables.differences, &tables.figures, &tables.wins, &tables.stretches, &tables.settings}) {
-    model.add_table(*table);
+  for (Table& table : comparison_tables(runs, options.threshold_percent)) {
+    model.add_table(std::move(table));
   }
   model.add_text("verdict", sentence(model.json["tables"]["differences"]));
   add_comparison_charts(runs, model);
   const auto [light, dark] = draw_overlay(runs);
   model.page.set("overlay_light", light);
   model.page.set("overlay_dark", dark);
-  model.page.set("report_json", text_for_script(model.json));
 
+  page::HtmlPage shown;
+  shown.kind = "compare";
+  shown.title = "Comparison · " + model.text("recording");
+  shown.program_version = model.text("program_version");
+  shown.sections = {{"verdict", "Verdict"},
+                    {"trajectories", "Trajectories"},
+                    {"errors", "Errors and time"},
+                    {"stretches", "Stretches"},
+                    {"settings", "Settings"}};
+  shown.report_json = script_text(model.json);
+  shown.scripts = {"dygraphs", "moment", "plot", "charts", "tables"};
   files::AtomicFiles output;
-  output.write(numbers, text_for_script(model.json) + "\n");
-  output.write(page, render_page(model.page, "compare",
-                                 {"dygraphs", "moment", "charts", "csv", "tables"}, templates));
+  output.write(numbers, shown.report_json + "\n");
+  output.write(page, page::render(shown, model.page, templates));
   output.commit();
   std::string text;
-  for (const char* id : {"figures", "differences", "wins"}) {
-    text += terminal_table(model.json["tables"][id]);
+  for (const Table& table : model.tables) {
+    const bool told =
+        table.id() == "figures" || table.id() == "differences" || table.id() == "wins";
+    if (told && !table.empty()) text += page::to_text(table) + "\n";
   }
-  return text + fmt::format("{}\n", model.json["verdict"].get<std::string>());
+  return text + fmt::format("{}\n", model.text("verdict"));
 }
 
 }  // namespace traverse::report

@@ -21,8 +21,8 @@ std::vector<std::string> with_names(std::vector<std::string> head,
   return head;
 }
 
-HtmlTable figures_table(const std::vector<ComparedRun>& runs) {
-  HtmlTable table("figures", "Figures of each run", with_names({"figure", "unit"}, runs));
+Table figures_table(const std::vector<ComparedRun>& runs) {
+  Table table("figures", "Figures of each run", with_names({"figure", "unit"}, runs));
   for (const FigureKind& kind : figure_kinds()) {
     std::vector<Cell> cells{std::string(kind.label), std::string(kind.unit)};
     bool any = false;
@@ -36,10 +36,10 @@ HtmlTable figures_table(const std::vector<ComparedRun>& runs) {
   return table;
 }
 
-HtmlTable differences_table(const std::vector<ComparedRun>& runs, double threshold_percent) {
-  HtmlTable table("differences", "Differences from " + runs.front().name,
-                  {"run", "figure", "unit", "difference", "ratio", "95 % from", "95 % to",
-                   "threshold ±", "moments", "verdict"});
+Table differences_table(const std::vector<ComparedRun>& runs, double threshold_percent) {
+  Table table("differences", "Differences from " + runs.front().name,
+              {"run", "figure", "unit", "difference", "ratio", "95 % from", "95 % to",
+               "threshold ±", "moments", "verdict"});
   const ComparedRun& baseline = runs.front();
   for (std::size_t k = 1; k < runs.size(); ++k) {
     for (const SeriesFigure& item : series_figures()) {
@@ -104,14 +104,14 @@ Stretches stretches_of(const RunData& run) {
 }
 
 struct Wins {
-  HtmlTable stretches;
-  HtmlTable wins;
+  Table stretches;
+  Table wins;
 };
 
 Wins wins_by_stretch(const std::vector<ComparedRun>& runs) {
-  Wins result{HtmlTable("stretches", "RPE over 10 frames on each stretch, mean in m",
-                        with_names({"from [m]", "to [m]"}, runs)),
-              HtmlTable("wins", "Stretches on which each run was best", {"run", "wins", "of"})};
+  Wins result{Table("stretches", "RPE over 10 frames on each stretch, mean in m",
+                    with_names({"from [m]", "to [m]"}, runs)),
+              Table("wins", "Stretches on which each run was best", {"run", "wins", "of"})};
   const Stretches stretches = stretches_of(runs.front().data);
   std::vector<std::vector<double>> means;
   for (const ComparedRun& run : runs) means.push_back(means_by_stretch(run.data, stretches.ends));
@@ -143,8 +143,8 @@ Wins wins_by_stretch(const std::vector<ComparedRun>& runs) {
   return result;
 }
 
-HtmlTable settings_table(const std::vector<ComparedRun>& runs) {
-  HtmlTable table("settings", "Settings that differ", with_names({"setting"}, runs));
+Table settings_table(const std::vector<ComparedRun>& runs) {
+  Table table("settings", "Settings that differ", with_names({"setting"}, runs));
   std::vector<std::map<std::string, std::string>> settings;
   std::set<std::string> keys;
   for (const ComparedRun& run : runs) {
@@ -192,7 +192,8 @@ std::string to_text(Change change) {
   return {};
 }
 
-ComparisonTables comparison_tables(const std::vector<ComparedRun>& runs, double threshold_percent) {
+std::vector<Table> comparison_tables(const std::vector<ComparedRun>& runs,
+                                     double threshold_percent) {
   Wins wins = wins_by_stretch(runs);
   return {figures_table(runs), differences_table(runs, threshold_percent), std::move(wins.wins),
           std::move(wins.stretches), settings_table(runs)};

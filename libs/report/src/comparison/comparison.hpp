@@ -23,16 +23,11 @@ enum class Change { kImproved, kNoChange, kRegressed, kUnknown };
 Change judge(const evaluation::Interval& interval, double threshold);
 std::string to_text(Change change);
 
-/// What the page and the terminal show.
-struct ComparisonTables {
-  HtmlTable figures;      ///< a row a figure, a column a run
-  HtmlTable differences;  ///< a row a figure and run but the baseline
-  HtmlTable wins;         ///< a row a run
-  HtmlTable stretches;    ///< a row a stretch of the drive
-  HtmlTable settings;     ///< a row a setting that differs
-};
-
-ComparisonTables comparison_tables(const std::vector<ComparedRun>& runs, double threshold_percent);
+/// What the page and the terminal show: "figures" (a row per figure, a column per run),
+/// "differences" (a row per figure and run but the baseline), "wins" (a row per run), "stretches"
+/// (a row per stretch of the drive) and "settings" (a row per setting that differs).
+std::vector<Table> comparison_tables(const std::vector<ComparedRun>& runs,
+                                     double threshold_percent);
 
 /// Errors of all runs over time under "charts", with their "poses".
 void add_comparison_charts(const std::vector<ComparedRun>& runs, Model& model);

@@ -7,7 +7,7 @@
 
 #include "charts/series.hpp"
 #include "figures/navigation_figures.hpp"
-#include "page/number_text.hpp"
+#include "run/number_texts.hpp"
 
 namespace traverse::report {
 

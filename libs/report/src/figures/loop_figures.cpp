@@ -9,7 +9,7 @@
 #include "traverse/render/pictures/loops_from_above.hpp"
 
 #include "charts/series.hpp"
-#include "page/number_text.hpp"
+#include "run/number_texts.hpp"
 
 namespace traverse::report {
 

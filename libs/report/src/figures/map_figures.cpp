@@ -15,8 +15,8 @@
 #include "traverse/render/pictures/scan_features.hpp"
 
 #include "charts/series.hpp"
-#include "page/number_text.hpp"
 #include "run/nearest_pose.hpp"
+#include "run/number_texts.hpp"
 
 namespace traverse::report {
 

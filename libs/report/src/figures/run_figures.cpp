@@ -9,7 +9,7 @@
 #include "traverse/evaluation/titles.hpp"
 
 #include "charts/series.hpp"
-#include "page/number_text.hpp"
+#include "run/number_texts.hpp"
 
 namespace traverse::report {
 
@@ -106,8 +106,7 @@ void add_health(const RunData& run, std::vector<RunFigure>& figures) {
 
 void add_cost(const RunData& run, std::vector<RunFigure>& figures) {
   const auto& timing = run.record.at("timing_ms");
-  const int threads = run.record.at("threads");
-  const std::string on = fmt::format("{} thread{}", threads, threads == 1 ? "" : "s");
+  const std::string on = plural(run.record.at("threads"), "thread");
   const std::string single = "one measurement of this run";
   figures.push_back(figure_of_values(
       "frame_median_ms", timing.at("frame_median"),

@@ -6,7 +6,7 @@
 #include "traverse/render/pictures/trajectory_from_the_side.hpp"
 
 #include "charts/series.hpp"
-#include "page/number_text.hpp"
+#include "run/number_texts.hpp"
 #include "sections/error_figures.hpp"
 
 namespace traverse::report {

@@ -10,7 +10,7 @@
 #include "traverse/render/pictures/map_from_above.hpp"
 #include "traverse/render/pictures/scan_matches.hpp"
 
-#include "page/number_text.hpp"
+#include "run/number_texts.hpp"
 #include "sections/error_figures.hpp"
 
 namespace traverse::report {

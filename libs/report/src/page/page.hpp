@@ -14,10 +14,4 @@ namespace traverse::report {
 std::string make_page(ReportModel& report, const std::vector<Figure>& figures,
                       const std::filesystem::path& templates);
 
-/// `page_name`.html of the templates rendered with `page`; style, partials and the scripts named
-/// are added. \throws as above
-std::string render_page(TemplateData& page, const std::string& page_name,
-                        const std::vector<std::string>& scripts,
-                        const std::filesystem::path& templates);
-
 }  // namespace traverse::report

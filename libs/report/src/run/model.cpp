@@ -2,19 +2,36 @@
 
 #include <charconv>
 #include <cmath>
+#include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
+#include "traverse/page/html_page.hpp"
+
 namespace traverse::report {
+
+namespace {
+
+struct CellJson {
+  Json operator()(std::monostate /*undefined*/) const { return nullptr; }
+  template <typename Held>
+  Json operator()(const Held& held) const {
+    return held;
+  }
+};
+
+}  // namespace
 
 void Model::add_text(const std::string& name, const std::string& text) {
   page.set(name, text);
   json[name] = text;
 }
 
-void Model::add_table(const HtmlTable& table) {
-  json["tables"][table.id()] = table.json();
+void Model::add_table(Table table) {
+  json["tables"][table.id()] = table_json(table);
   page.set("table_" + table.id(), table.empty() ? TemplateData(false) : table.data());
+  tables.push_back(std::move(table));
 }
 
 Json series_number(double value) {
@@ -25,26 +42,23 @@ Json series_number(double value) {
   return rounded;
 }
 
-std::string text_for_script(const Json& json) {
-  const std::string plain = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  std::string text;
-  text.reserve(plain.size() + plain.size() / 64);
-  for (const char c : plain) {
-    switch (c) {
-      case '<':
-        text += "\\u003c";
-        break;
-      case '>':
-        text += "\\u003e";
-        break;
-      case '&':
-        text += "\\u0026";
-        break;
-      default:
-        text += c;
-    }
+Json table_json(const Table& table) {
+  Json rows = Json::array();
+  Json marked = Json::array();
+  for (const Table::Row& row : table.rows()) {
+    if (row.marked) marked.push_back(rows.size());
+    Json cells = Json::array();
+    for (const Cell& cell : row.cells) cells.push_back(std::visit(CellJson{}, cell.value));
+    rows.push_back(std::move(cells));
   }
-  return text;
+  return {{"title", table.title()},
+          {"columns", table.columns()},
+          {"rows", std::move(rows)},
+          {"marked", std::move(marked)}};
+}
+
+std::string script_text(const Json& json) {
+  return page::text_for_script(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace traverse::report

@@ -9,7 +9,6 @@
 #include "traverse/pipeline/run_folder.hpp"
 
 #include "figures/figures.hpp"
-#include "page/exports.hpp"
 #include "page/page.hpp"
 #include "run/report_model.hpp"
 #include "sections/budget_check.hpp"
@@ -59,10 +58,10 @@ std::optional<BudgetResult> write_run_report(const std::filesystem::path& run_fo
 
   ReportModel report = make_model(input);
   const std::string page = make_page(report, pictures, templates);
-  files::write_text(made.report_json(), text_for_script(report.model.json) + "\n");
+  files::write_text(made.report_json(), script_text(report.model.json) + "\n");
   files::write_text(made.report(), page);
   move_into_place(made, files);
-  if (options.exports) export_tables(report.model.json.at("tables"), *options.exports);
+  if (options.exports) page::export_tables(report.model.tables, *options.exports);
   return budget;
 }
 

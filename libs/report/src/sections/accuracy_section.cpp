@@ -2,8 +2,7 @@
 
 #include "traverse/evaluation/titles.hpp"
 
-#include "page/html_table.hpp"
-#include "page/number_text.hpp"
+#include "run/number_texts.hpp"
 #include "sections/sections.hpp"
 
 namespace traverse::report {
@@ -25,9 +24,9 @@ void add_statistics(std::vector<Cell>& cells, const evaluation::Statistics& s) {
   cells.push_back(Cell::count(s.count));
 }
 
-HtmlTable ape_table(const evaluation::Comparison& comparison) {
-  HtmlTable table("ape", "Absolute pose error",
-                  {"relation", "rmse", "mean", "median", "std", "min", "max", "pairs"});
+Table ape_table(const evaluation::Comparison& comparison) {
+  Table table("ape", "Absolute pose error",
+              {"relation", "rmse", "mean", "median", "std", "min", "max", "pairs"});
   for (const evaluation::Ape& ape : comparison.ape) {
     std::vector<Cell> cells{relation_text(ape.relation)};
     add_statistics(cells, ape.statistics);
@@ -37,10 +36,10 @@ HtmlTable ape_table(const evaluation::Comparison& comparison) {
 }
 
 /// The two relations that people ask for, or all the others.
-HtmlTable rpe_table(const evaluation::Comparison& comparison, bool main_relations) {
-  HtmlTable table(main_relations ? "rpe" : "rpe_more",
-                  main_relations ? "Relative pose error" : "Relative pose error, other relations",
-                  {"stretch", "relation", "rmse", "mean", "median", "std", "min", "max", "pairs"});
+Table rpe_table(const evaluation::Comparison& comparison, bool main_relations) {
+  Table table(main_relations ? "rpe" : "rpe_more",
+              main_relations ? "Relative pose error" : "Relative pose error, other relations",
+              {"stretch", "relation", "rmse", "mean", "median", "std", "min", "max", "pairs"});
   for (const evaluation::Rpe& rpe : comparison.rpe) {
     const bool main = rpe.relation == Relation::kTranslation || rpe.relation == Relation::kAngleDeg;
     if (main != main_relations) continue;
@@ -51,10 +50,10 @@ HtmlTable rpe_table(const evaluation::Comparison& comparison, bool main_relation
   return table;
 }
 
-HtmlTable kitti_table(const evaluation::KittiDrift& kitti, const std::string& id,
-                      const std::string& by, const std::vector<evaluation::KittiBin>& bins) {
-  HtmlTable table(id, "KITTI drift by " + by,
-                  {by, "translation [%]", "rotation [deg/100 m]", "segments"});
+Table kitti_table(const evaluation::KittiDrift& kitti, const std::string& id, const std::string& by,
+                  const std::vector<evaluation::KittiBin>& bins) {
+  Table table(id, "KITTI drift by " + by,
+              {by, "translation [%]", "rotation [deg/100 m]", "segments"});
   for (const evaluation::KittiBin& bin : bins) {
     table.add_row({bin.centre, bin.translation_percent, 100 * bin.rotation_deg_per_m,
                    Cell::count(bin.segments)});
@@ -67,8 +66,8 @@ HtmlTable kitti_table(const evaluation::KittiDrift& kitti, const std::string& id
   return table;
 }
 
-HtmlTable path_table(const evaluation::PathFigures& path) {
-  HtmlTable table("path", "Path", {"figure", "value", "unit"});
+Table path_table(const evaluation::PathFigures& path) {
+  Table table("path", "Path", {"figure", "value", "unit"});
   table.add_row({"path of the estimate", path.estimate_m, "m"});
   table.add_row({"path of the reference", path.reference_m, "m"});
   table.add_row({"end error", path.end_error_m, "m"});
@@ -77,8 +76,8 @@ HtmlTable path_table(const evaluation::PathFigures& path) {
   return table;
 }
 
-HtmlTable consistency_table(const evaluation::Consistency& score) {
-  HtmlTable table("consistency", "Sharpness of the map", {"figure", "value", "unit", "over"});
+Table consistency_table(const evaluation::Consistency& score) {
+  Table table("consistency", "Sharpness of the map", {"figure", "value", "unit", "over"});
   const std::string queries = count_text(score.queries) + " queries";
   table.add_row({"mean map entropy (MME)", score.mme, "nats", queries});
   table.add_row({"mean plane deviation (MPV)", 100 * score.mpv_m, "cm", queries});
@@ -91,9 +90,8 @@ HtmlTable consistency_table(const evaluation::Consistency& score) {
   return table;
 }
 
-HtmlTable undefined_table(const evaluation::Comparison& comparison) {
-  HtmlTable table("undefined", "Figures that the trajectories do not define",
-                  {"figure", "because"});
+Table undefined_table(const evaluation::Comparison& comparison) {
+  Table table("undefined", "Figures that the trajectories do not define", {"figure", "because"});
   for (const evaluation::Undefined& item : comparison.undefined) {
     table.add_row({item.metric, item.reason});
   }

@@ -10,7 +10,7 @@
 #include "traverse/files/input_error.hpp"
 
 #include "charts/series.hpp"
-#include "page/number_text.hpp"
+#include "run/number_texts.hpp"
 #include "sections/budget_check.hpp"
 
 namespace traverse::report {
@@ -89,8 +89,8 @@ BudgetResult check_budget(const std::filesystem::path& budget,
 }
 
 void add_budget(const BudgetResult& result, Model& model) {
-  HtmlTable table("budget", "Budget " + result.file.filename().string(),
-                  {"figure", "value", "at most", "unit", "kept"});
+  Table table("budget", "Budget " + result.file.filename().string(),
+              {"figure", "value", "at most", "unit", "kept"});
   for (const BudgetLine& line : result.lines) {
     table.add_row({line.label, line.value ? Cell(*line.value) : Cell(kNone), line.limit, line.unit,
                    line.passed() ? "pass" : "fail"});

@@ -14,7 +14,7 @@
 #include "traverse/render/pictures/violins.hpp"
 
 #include "charts/series.hpp"
-#include "page/number_text.hpp"
+#include "run/number_texts.hpp"
 
 namespace traverse::report {
 

@@ -7,8 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "page/html_table.hpp"
-#include "page/number_text.hpp"
+#include "run/number_texts.hpp"
 #include "sections/sections.hpp"
 
 namespace traverse::report {
@@ -19,10 +18,10 @@ using loam::FactorBench;
 using loam::Spread;
 using optimization::JacobianAudit;
 
-HtmlTable jacobians_table(const JacobianAudit& audit) {
-  HtmlTable table("jacobians", "Jacobians of the factors of this run",
-                  {"factor", "perturbation", "block", "largest entry", "to automatic: absolute",
-                   "relative", "to differences: absolute", "relative", "verdict"});
+Table jacobians_table(const JacobianAudit& audit) {
+  Table table("jacobians", "Jacobians of the factors of this run",
+              {"factor", "perturbation", "block", "largest entry", "to automatic: absolute",
+               "relative", "to differences: absolute", "relative", "verdict"});
   for (const optimization::FactorAudit& factor : audit.factors) {
     for (const optimization::BlockAudit& block : factor.blocks) {
       table.add_row(
@@ -95,8 +94,8 @@ Cell spread_cell(const Spread& spread) {
   return cell;
 }
 
-HtmlTable evaluations_table(const FactorBench& bench) {
-  HtmlTable table(
+Table evaluations_table(const FactorBench& bench) {
+  Table table(
       "derivative_evaluations", "A residual with its Jacobians, nanoseconds",
       {"factor", "analytic", "automatic", "numeric", "automatic / analytic", "numeric / analytic"});
   for (const auto& costs : by_case(bench.evaluations)) {
@@ -108,10 +107,10 @@ HtmlTable evaluations_table(const FactorBench& bench) {
   return table;
 }
 
-HtmlTable solves_table(const FactorBench& bench) {
-  HtmlTable table("derivative_solves", "A whole solve for the pose, milliseconds",
-                  {"factors", "analytic", "automatic", "numeric", "automatic / analytic",
-                   "numeric / analytic", "steps", "poses apart [m]", "[deg]"});
+Table solves_table(const FactorBench& bench) {
+  Table table("derivative_solves", "A whole solve for the pose, milliseconds",
+              {"factors", "analytic", "automatic", "numeric", "automatic / analytic",
+               "numeric / analytic", "steps", "poses apart [m]", "[deg]"});
   for (const auto& costs : by_case(bench.solves)) {
     const double analytic = costs[0].milliseconds.median;
     const double radians = std::max(costs[1].from_analytic_rad, costs[2].from_analytic_rad);

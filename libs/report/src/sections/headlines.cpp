@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "page/number_text.hpp"
+#include "run/number_texts.hpp"
 #include "sections/budget_check.hpp"
 #include "sections/sections.hpp"
 
@@ -84,7 +84,7 @@ void add_headlines(const std::vector<RunFigure>& figures, const BudgetResult* bu
   }
   model.json["figures"] = std::move(json);
 
-  TemplateData list{TemplateData::type::list};
+  TemplateData list = TemplateData::list();
   std::size_t shown = 0;
   for (const std::string_view id : kHeadlines) {
     const RunFigure* figure = find_figure(figures, id);

@@ -7,8 +7,7 @@
 
 #include "traverse/statistics/quantile.hpp"
 
-#include "page/html_table.hpp"
-#include "page/number_text.hpp"
+#include "run/number_texts.hpp"
 #include "sections/sections.hpp"
 
 namespace traverse::report {
@@ -16,10 +15,10 @@ namespace traverse::report {
 namespace {
 
 /// What became of the candidates, with the measures that decided.
-HtmlTable outcomes_table(const std::vector<slam::Loop>& loops) {
-  HtmlTable table("loop_outcomes", "Candidates",
-                  {"outcome", "candidates", "of them by appearance", "overlap, median",
-                   "residual, median [m]", "chi-square to odometry, median"});
+Table outcomes_table(const std::vector<slam::Loop>& loops) {
+  Table table("loop_outcomes", "Candidates",
+              {"outcome", "candidates", "of them by appearance", "overlap, median",
+               "residual, median [m]", "chi-square to odometry, median"});
   std::map<slam::LoopVerdict, std::vector<const slam::Loop*>> by_verdict;
   for (const slam::Loop& loop : loops) by_verdict[loop.verdict].push_back(&loop);
   for (const auto& [verdict, group] : by_verdict) {
@@ -47,8 +46,8 @@ const evaluation::Ape* position_error(const evaluation::Evaluation& evaluation) 
 }
 
 /// The same figures of odometry alone and after loops were closed.
-HtmlTable before_after_table(const RunData& run) {
-  HtmlTable table("loops_before_after", "Odometry and SLAM", {"figure", "odometry", "SLAM"});
+Table before_after_table(const RunData& run) {
+  Table table("loops_before_after", "Odometry and SLAM", {"figure", "odometry", "SLAM"});
   const evaluation::Evaluation& before = *run.odometry_evaluation;
   const evaluation::Evaluation& after = run.evaluation;
   const auto* ape_before = position_error(before);
@@ -67,9 +66,9 @@ HtmlTable before_after_table(const RunData& run) {
   return table;
 }
 
-HtmlTable residuals_table(const std::vector<slam::Loop>& loops) {
-  HtmlTable table("loop_residuals", "Loops in the graph",
-                  {"loops", "mean chi-square / 6", "largest", "of less weight than one half"});
+Table residuals_table(const std::vector<slam::Loop>& loops) {
+  Table table("loop_residuals", "Loops in the graph",
+              {"loops", "mean chi-square / 6", "largest", "of less weight than one half"});
   double sum = 0;
   double largest = 0;
   std::size_t count = 0;

@@ -5,8 +5,7 @@
 #include <fmt/format.h>
 
 #include "charts/navigation_series.hpp"
-#include "page/html_table.hpp"
-#include "page/number_text.hpp"
+#include "run/number_texts.hpp"
 #include "sections/sections.hpp"
 
 namespace traverse::report {
@@ -15,9 +14,9 @@ namespace {
 
 /// How well a factor kind agreed with the estimate: its normalised innovation squared over its
 /// degrees of freedom should be 1 on average.
-HtmlTable innovations_table(const pipeline::FrameTable& frames) {
-  HtmlTable table("innovations", "Agreement of the factors",
-                  {"factor", "times", "mean chi-square / rows", "largest", "rejected"});
+Table innovations_table(const pipeline::FrameTable& frames) {
+  Table table("innovations", "Agreement of the factors",
+              {"factor", "times", "mean chi-square / rows", "largest", "rejected"});
   for (const auto& [column, name] : kInnovationKinds) {
     const std::string prefix = column;
     const auto chi2 = frames.column(prefix + "_chi2");
@@ -41,9 +40,9 @@ HtmlTable innovations_table(const pipeline::FrameTable& frames) {
   return table;
 }
 
-HtmlTable biases_table(const pipeline::FrameTable& frames) {
-  HtmlTable table("biases", "Biases and what else is estimated",
-                  {"bias", "at the end", "3 sigma", "3 sigma at the beginning"});
+Table biases_table(const pipeline::FrameTable& frames) {
+  Table table("biases", "Biases and what else is estimated",
+              {"bias", "at the end", "3 sigma", "3 sigma at the beginning"});
   const auto add = [&](const std::string& name, const std::string& value,
                        const std::string& deviation) {
     const auto values = frames.column(value);
@@ -71,9 +70,9 @@ HtmlTable biases_table(const pipeline::FrameTable& frames) {
   return table;
 }
 
-HtmlTable outages_table(const pipeline::FrameTable& frames) {
-  HtmlTable table("outages", "Spells without GNSS",
-                  {"outage ended at [s]", "distance [m]", "error [m]", "of the distance [%]"});
+Table outages_table(const pipeline::FrameTable& frames) {
+  Table table("outages", "Spells without GNSS",
+              {"outage ended at [s]", "distance [m]", "error [m]", "of the distance [%]"});
   const auto stamp = frames.column("stamp_s");
   const auto error = frames.column("outage_error_m");
   const auto distance = frames.column("outage_distance_m");

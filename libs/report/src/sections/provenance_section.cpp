@@ -4,8 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "page/html_table.hpp"
-#include "page/number_text.hpp"
+#include "run/number_texts.hpp"
 #include "sections/sections.hpp"
 
 namespace traverse::report {
@@ -18,9 +17,9 @@ std::string value_text(const json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-HtmlTable configuration_table(const json& settings) {
-  HtmlTable table("configuration", "Configuration",
-                  {"setting", "value", "preset", "meaning", "allowed"});
+Table configuration_table(const json& settings) {
+  Table table("configuration", "Configuration",
+              {"setting", "value", "preset", "meaning", "allowed"});
   for (const bool changed : {true, false}) {
     for (const json& setting : settings) {
       if (setting.at("changed").get<bool>() != changed) continue;
@@ -45,8 +44,8 @@ std::string configuration_summary(const json& record) {
                      record.at("pipeline_description").get<std::string>());
 }
 
-HtmlTable facts_table(const json& record) {
-  HtmlTable table("facts", "What was taken for true", {"fact", "value", "because"});
+Table facts_table(const json& record) {
+  Table table("facts", "What was taken for true", {"fact", "value", "because"});
   for (const json& fact : record.at("recording").at("facts")) {
     table.add_row({fact.at("name").get<std::string>(), fact.at("value").get<std::string>(),
                    fact.at("reason").get<std::string>()});
@@ -58,8 +57,8 @@ HtmlTable facts_table(const json& record) {
   return table;
 }
 
-HtmlTable skipped_table(const json& record) {
-  HtmlTable table("skipped", "Skipped records", {"reason", "records", "first places"});
+Table skipped_table(const json& record) {
+  Table table("skipped", "Skipped records", {"reason", "records", "first places"});
   for (const auto& [reason, skipped] : record.at("skipped_records").items()) {
     table.add_row(
         {reason, Cell::count(skipped.at("count").get<std::size_t>()),
@@ -68,7 +67,7 @@ HtmlTable skipped_table(const json& record) {
   return table;
 }
 
-HtmlTable made_table(const json& record) {
+Table made_table(const json& record) {
   const json& recording = record.at("recording");
   const json& program = record.at("program");
   const json& host = record.at("host");
@@ -76,7 +75,7 @@ HtmlTable made_table(const json& record) {
   for (const auto& [name, version] : program.at("libraries").items()) {
     libraries.push_back(fmt::format("{} {}", name, version.get<std::string>()));
   }
-  HtmlTable table("made", "How this was made", {"what", "value"});
+  Table table("made", "How this was made", {"what", "value"});
   table.add_row({"recording", fmt::format("{} ({})", recording.at("path").get<std::string>(),
                                           recording.at("format").get<std::string>())});
   if (!recording.at("sha256").is_null()) {

@@ -11,8 +11,7 @@ namespace traverse::report {
 class FigureMaker;
 
 /// A section of a run's page: all that has to be told of one. Its text is the template
-/// sections/ID.html, which stands between headings and pictures of its own; contents and order of
-/// the page are those of the table.
+/// run/ID.html; contents and order of the page are those of the table.
 struct ReportSection {
   std::string_view id;     ///< its anchor and the name of its template
   std::string_view title;  ///< in the contents and above it

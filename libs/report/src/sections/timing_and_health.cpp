@@ -5,8 +5,7 @@
 #include <fmt/format.h>
 
 #include "charts/series.hpp"
-#include "page/html_table.hpp"
-#include "page/number_text.hpp"
+#include "run/number_texts.hpp"
 #include "sections/sections.hpp"
 
 namespace traverse::report {
@@ -34,9 +33,9 @@ std::vector<std::size_t> frames_by_concern(const pipeline::FrameTable& frames) {
   return order;
 }
 
-HtmlTable worst_table(const RunData& run) {
+Table worst_table(const RunData& run) {
   const pipeline::FrameTable& frames = run.frames;
-  HtmlTable table(
+  Table table(
       "worst_frames", "Frames to look at first",
       {"frame", "time [s]", "registered", "degenerate", "residual rms [m]", "inliers [%]",
        "line matches", "plane matches", "least eigenvalue", "time taken [ms]", "to see it"});
@@ -73,10 +72,10 @@ std::vector<Cell> timing_row(const std::string& name, const nlohmann::json& timi
           of("max")};
 }
 
-HtmlTable timing_table(const RunData& run) {
+Table timing_table(const RunData& run) {
   const auto& timing = run.record.at("timing_ms");
-  HtmlTable table("timing", "Time of the stages",
-                  {"stage", "median [ms]", "mean [ms]", "95 % [ms]", "99 % [ms]", "max [ms]"});
+  Table table("timing", "Time of the stages",
+              {"stage", "median [ms]", "mean [ms]", "95 % [ms]", "99 % [ms]", "max [ms]"});
   for (const auto& stage : timing.at("stages")) {
     const std::string name = stage.at("name");
     table.add_row(timing_row(name, stage, "", stage.at("mean"), run.frames, name + "_ms"));

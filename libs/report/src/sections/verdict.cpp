@@ -6,7 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "charts/series.hpp"
-#include "page/number_text.hpp"
+#include "run/number_texts.hpp"
 #include "sections/sections.hpp"
 
 namespace traverse::report {
@@ -113,7 +113,7 @@ std::vector<Notice> notices(const RunData& run) {
 
 void add_verdict(const RunData& run, const std::vector<RunFigure>& figures, Model& model) {
   model.add_text("verdict", sentence(run, figures));
-  TemplateData list{TemplateData::type::list};
+  TemplateData list = TemplateData::list();
   Json json = Json::array();
   for (const Notice& notice : notices(run)) {
     TemplateData entry;

@@ -9,10 +9,10 @@
 namespace traverse::report {
 
 void add_worst_segments(const RunData& run, const evaluation::WorstSegments& worst, Model& model) {
-  HtmlTable table("worst_segments", "The worst segments",
-                  {"from frame", "to frame", "from [s]", "length [m]",
-                   fmt::format("{} [{}]", worst.measure, worst.unit), "least eigenvalue",
-                   "degenerate frames", "inliers [%]"});
+  Table table("worst_segments", "The worst segments",
+              {"from frame", "to frame", "from [s]", "length [m]",
+               fmt::format("{} [{}]", worst.measure, worst.unit), "least eigenvalue",
+               "degenerate frames", "inliers [%]"});
   const auto number = run.frames.column("frame");
   const auto eigenvalue = run.frames.column("eigenvalue_1");
   const auto degenerate = run.frames.column("degenerate_directions");

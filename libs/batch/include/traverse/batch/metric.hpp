@@ -21,6 +21,8 @@ struct Metric {
 const std::vector<Metric>& known_metrics();
 /// The metric of that key, or nullptr.
 const Metric* find_metric(std::string_view key);
+/// "APE [m]"
+std::string with_unit(const Metric& metric);
 /// What a report shows when the plan does not say.
 std::vector<std::string> default_metrics();
 

@@ -6,7 +6,7 @@
 namespace traverse::files {
 
 /// `text` as LaTeX prints it: what LaTeX would take for itself is escaped, line breaks are blanks.
-/// reports/templates/tables.js does the same in the page.
+/// reports/templates/page.js does the same in the page.
 std::string latex_text(std::string_view text);
 
 }  // namespace traverse::files

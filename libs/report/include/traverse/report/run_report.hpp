@@ -36,7 +36,7 @@ class ReportStopped : public std::runtime_error {
 /// also as SVG and PDF) and writes report.html, one self-contained file, and report.json, its
 /// numbers (docs/report-json.md): all made from the run folder alone. They come into their places
 /// when all of them are complete; until then an earlier report stays whole, however this ends.
-/// \param templates folder with run.html, run.css, ...
+/// \param templates folder with page.html, run/*.html, ...
 /// \return what the budget said, if there was one
 /// \throws files::InputError if a file of the run is missing or damaged; files::FolderInUse if
 /// another process makes the report of this run; files::OutputError; ReportStopped

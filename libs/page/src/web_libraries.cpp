@@ -1,4 +1,4 @@
-#include "page/web_libraries.hpp"
+#include "web_libraries.hpp"
 
 // The assembler takes the files in as they are; `name` and `name_end` stand around their bytes.
 #define TRAVERSE_EMBED(name, file)                                                              \
@@ -12,7 +12,7 @@ TRAVERSE_EMBED(orbit_controls, TRAVERSE_ORBIT_CONTROLS_JS);
 TRAVERSE_EMBED(dygraphs, TRAVERSE_DYGRAPHS_JS);
 TRAVERSE_EMBED(dygraphs_style, TRAVERSE_DYGRAPHS_CSS);
 
-namespace traverse::report::web {
+namespace traverse::page::web {
 
 namespace {
 
@@ -34,4 +34,4 @@ std::string_view dygraphs_style() {
 const std::string_view kThreeVersion = TRAVERSE_THREE_JS_VERSION;
 const std::string_view kDygraphsVersion = TRAVERSE_DYGRAPHS_JS_VERSION;
 
-}  // namespace traverse::report::web
+}  // namespace traverse::page::web

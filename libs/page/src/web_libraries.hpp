@@ -4,7 +4,7 @@
 
 /// The JavaScript libraries of the page, built into the program from Debian's packages so that a
 /// report can be written anywhere.
-namespace traverse::report::web {
+namespace traverse::page::web {
 
 std::string_view three();           ///< libjs-three, MIT
 std::string_view orbit_controls();  ///< of the same
@@ -15,4 +15,4 @@ std::string_view dygraphs_style();
 extern const std::string_view kThreeVersion;
 extern const std::string_view kDygraphsVersion;
 
-}  // namespace traverse::report::web
+}  // namespace traverse::page::web

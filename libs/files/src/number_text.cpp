@@ -1,5 +1,6 @@
-#include "page/number_text.hpp"
+#include "traverse/files/number_text.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -7,12 +8,13 @@
 
 #include "traverse/files/numbers.hpp"
 
-namespace traverse::report {
+namespace traverse::files {
 
 namespace {
 
 constexpr const char* kMinus = "\u2212";
 constexpr const char* kThinSpace = "\u2009";
+constexpr std::size_t kUngrouped = 4;  // digits that need no spaces yet
 
 std::string with_true_minus(const std::string& text) {
   return text.starts_with('-') ? kMinus + text.substr(1) : text;
@@ -32,11 +34,11 @@ std::string short_number(double value) {
 }
 
 std::string full_number(double value) {
-  return std::isfinite(value) ? files::to_text(value) : "not defined";
+  return std::isfinite(value) ? to_text(value) : "not defined";
 }
 
-std::string count_text(std::size_t count) {
-  std::string digits = std::to_string(count);
+std::string grouped(const std::string& digits) {
+  if (digits.size() <= kUngrouped) return digits;
   std::string text;
   for (std::size_t i = 0; i < digits.size(); ++i) {
     if (i > 0 && (digits.size() - i) % 3 == 0) text += kThinSpace;
@@ -45,8 +47,14 @@ std::string count_text(std::size_t count) {
   return text;
 }
 
-std::string plural(std::size_t count, const std::string& noun) {
-  return count_text(count) + " " + noun + (count == 1 ? "" : "s");
+std::string count_text(std::size_t count) { return grouped(std::to_string(count)); }
+
+std::string noun(std::size_t count, std::string_view singular) {
+  return std::string(singular) + (count == 1 ? "" : "s");
+}
+
+std::string plural(std::size_t count, std::string_view singular) {
+  return count_text(count) + " " + noun(count, singular);
 }
 
 std::string bytes_text(double bytes) {
@@ -67,4 +75,14 @@ std::string duration_text(double seconds) {
   return fmt::format("{} h {:02d} min", minutes / 60, minutes % 60);
 }
 
-}  // namespace traverse::report
+std::string clock_text(double seconds, int decimals) {
+  const double unit = std::pow(10, decimals);
+  const double rounded = std::max(0.0, std::round(seconds * unit) / unit);
+  const auto minutes = static_cast<long>(rounded / 60);
+  const std::string rest = fmt::format("{:0{}.{}f}", rounded - 60.0 * static_cast<double>(minutes),
+                                       decimals == 0 ? 2 : 3 + decimals, decimals);
+  return minutes < 60 ? fmt::format("{}:{}", minutes, rest)
+                      : fmt::format("{}:{:02d}:{}", minutes / 60, minutes % 60, rest);
+}
+
+}  // namespace traverse::files

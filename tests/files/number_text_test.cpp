@@ -1,4 +1,4 @@
-#include "page/number_text.hpp"
+#include "traverse/files/number_text.hpp"
 
 #include <limits>
 
@@ -6,7 +6,7 @@
 
 #include "traverse/files/numbers.hpp"
 
-namespace traverse::report {
+namespace traverse::files {
 namespace {
 
 TEST(ShortNumber, ShowsThreeOrFourDigits) {
@@ -21,17 +21,29 @@ TEST(ShortNumber, ShowsThreeOrFourDigits) {
   EXPECT_EQ(short_number(std::numeric_limits<double>::quiet_NaN()), "\u2013");
 }
 
-TEST(FullNumber, KeepsEveryDigit) { EXPECT_EQ(files::parse_double(full_number(1.0 / 3)), 1.0 / 3); }
+TEST(FullNumber, KeepsEveryDigit) { EXPECT_EQ(parse_double(full_number(1.0 / 3)), 1.0 / 3); }
 
-TEST(Texts, CountsBytesAndDurations) {
+TEST(NumberTexts, CountsBytesAndDurations) {
   EXPECT_EQ(count_text(1234567), "1\u2009234\u2009567");
-  EXPECT_EQ(count_text(12), "12");
+  EXPECT_EQ(count_text(12345), "12\u2009345");
+  EXPECT_EQ(count_text(1234), "1234");
   EXPECT_EQ(plural(1, "frame"), "1 frame");
   EXPECT_EQ(plural(0, "frame"), "0 frames");
+  EXPECT_EQ(noun(1, "frame"), "frame");
   EXPECT_EQ(bytes_text(211e6), "211.0 MB");
   EXPECT_EQ(duration_text(43.21), "43.2 s");
   EXPECT_EQ(duration_text(3720), "1 h 02 min");
 }
 
+TEST(NumberTexts, ClockRunsOverAtSixty) {
+  EXPECT_EQ(clock_text(0), "0:00");
+  EXPECT_EQ(clock_text(59.6), "1:00");
+  EXPECT_EQ(clock_text(3599.5), "1:00:00");
+  EXPECT_EQ(clock_text(3750), "1:02:30");
+  EXPECT_EQ(clock_text(-1), "0:00");
+  EXPECT_EQ(clock_text(3.25, 2), "0:03.25");
+  EXPECT_EQ(clock_text(59.999, 2), "1:00.00");
+}
+
 }  // namespace
-}  // namespace traverse::report
+}  // namespace traverse::files
