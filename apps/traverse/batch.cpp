@@ -41,6 +41,7 @@ struct BatchArguments {
   bool retry_failed = false;
   bool wait = true;
   std::string baseline;
+  std::int64_t last = -1;
 };
 
 fs::path this_program() { return fs::read_symlink("/proc/self/exe"); }
@@ -65,6 +66,7 @@ batch::Plan checked_plan(const BatchArguments& arguments, const fs::path& share)
   try {
     batch::Plan plan = batch::load_plan(arguments.plan, share, simulation_error);
     print_notes(plan.notes);
+    if (arguments.last >= 0) batch::stop_after(arguments.last, plan);
     if (arguments.executor == "local") batch::check_this_machine(plan);
     return plan;
   } catch (const files::InputError& error) {
@@ -148,6 +150,7 @@ void run_plan(const BatchArguments& arguments, const std::vector<std::string>& c
              end.state.finished - std::min(end.state.finished, end.state.made));
   fmt::print("results    {}\nreport     {}\n", folder.results_csv().string(),
              folder.report().string());
+  if (!plan.tables.empty()) fmt::print("tables     {}\n", folder.tables().string());
   if (end.stopped) {
     print_message("traverse: {}\n",
                   is_local
@@ -161,6 +164,7 @@ void run_plan(const BatchArguments& arguments, const std::vector<std::string>& c
 
 constexpr const char* kExamples = R"(Examples:
   traverse batch plan.yaml --check                     explain the plan, run nothing
+  traverse batch plan.yaml -o TRY --last 9             ten frames of each run, to see what comes out
   traverse batch plan.yaml -o OUT                      on this machine; OUT/batch.html is the report
   traverse batch plan.yaml -o OUT                      again: goes on where it was, or finds all done
   traverse batch plan.yaml -o OUT --executor slurm     as one job array
@@ -269,6 +273,11 @@ void add_batch(CLI::App& app) {
   batch->add_option("--shard", arguments->shard, "only the i-th of n parts")->type_name("i/n");
   batch->add_flag("--retry-failed", arguments->retry_failed, "make runs that are not ok again");
   batch->add_flag("!--no-wait", arguments->wait, "slurm: submit and return");
+  batch
+      ->add_option("--last", arguments->last,
+                   "stop each run after this frame, counted from 0: to try a plan")
+      ->check(CLI::NonNegativeNumber)
+      ->option_text("N");
   batch->add_option("--baseline", arguments->baseline, "folder or results.json to compare with")
       ->check(CLI::ExistingPath);
   batch->require_subcommand(0, 1);

@@ -52,6 +52,15 @@ void print_plan(const batch::Plan& plan) {
   for (const auto& budget : plan.budgets) {
     fmt::print("  budget: {} at most {:g}\n", budget.metric, budget.most);
   }
+  if (!plan.tables.empty()) {
+    fmt::print("tables\n");
+    for (const auto& table : plan.tables) {
+      fmt::print("  {}: {} of {}, {}\n", table.title.empty() ? "(without a title)" : table.title,
+                 files::plural(table.columns.size(), "column"),
+                 files::plural(table.pipelines.size(), "pipeline"),
+                 files::plural(table.recordings.size(), "recording"));
+    }
+  }
   fmt::print("\n{}\n", batch::describe(plan));
 }
 

@@ -1,5 +1,6 @@
 #include "traverse/batch/job.hpp"
 
+#include <algorithm>
 #include <set>
 #include <string>
 
@@ -48,6 +49,18 @@ TEST_F(JobTest, EachCombinationIsOneJobWithItsCommand) {
   EXPECT_THAT(all[3].arguments,
               IsSupersetOf({"run", (folder_ / "a.rawlog").c_str(), "--set", "solver.huber_m=0.2",
                             "--threads", "2", "-o", "run"}));
+}
+
+TEST_F(JobTest, APipelineStatesFactsOverThoseOfTheRecording) {
+  const auto plan_with = [](const std::string& statements) {
+    return "recordings: [{path: a.rawlog, statements: {period_s: 1}}]\npipelines: [{preset: floam" +
+           statements + "}]\n";
+  };
+  const auto stated = jobs(plan_with(", statements: {period_s: 2}"));
+  const auto& words = stated.at(0).arguments;
+  const auto first = std::find(words.begin(), words.end(), "period_s=1");
+  EXPECT_NE(std::find(first, words.end(), "period_s=2"), words.end()) << "the later wins";
+  EXPECT_NE(stated.at(0).id, jobs(plan_with("")).at(0).id);
 }
 
 TEST_F(JobTest, TheIdFollowsRecordingConfigurationAndProgramAlone) {

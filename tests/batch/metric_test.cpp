@@ -53,6 +53,24 @@ TEST(Metric, AreReadFromARunFolder) {
   EXPECT_EQ((std::map<std::string, double>(values.begin(), values.end())), expected);
 }
 
+TEST(Metric, LoopsAndDegenerateFramesAreCounted) {
+  const TemporaryFolder run;
+  files::write_text(run / "evaluation.json", R"({"consistency": {"mme": -2, "queries": 7}})");
+  files::write_text(run / "odometry_evaluation.json",
+                    R"({"ape": {"translation": {"rmse": 0.5}}, "consistency": {"mme": -1}})");
+  files::write_text(run / "loops.csv", "keyframe,verdict\n3,accepted\n5,residual\n6,accepted\n");
+  files::write_text(run / "frames.csv", "frame,degenerate_directions\n0,0\n1,2\n2,1\n");
+  const auto values = read_metrics(run.path());
+  const std::map<std::string, double> expected{{"mme", -2},
+                                               {"mme_queries", 7},
+                                               {"odometry_ape_translation_rmse", 0.5},
+                                               {"odometry_mme", -1},
+                                               {"loop_candidates", 3},
+                                               {"loops_accepted", 2},
+                                               {"degenerate_frames", 2}};
+  EXPECT_EQ((std::map<std::string, double>(values.begin(), values.end())), expected);
+}
+
 TEST(Metric, ACrashedRunHasWhatItWroteAndNoMore) {
   const TemporaryFolder run;
   EXPECT_TRUE(read_metrics(run.path()).empty());

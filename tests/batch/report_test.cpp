@@ -19,6 +19,7 @@ struct Made {
   Results results{{made_job("a", "floam"), made_job("b", "floam"), made_job("b", "other")}};
   std::vector<VariantSummary> variants;
   std::optional<BaselineComparison> baseline;
+  std::vector<ShownTable> tables;
 
   Made() {
     plan.file = "/plans/night.yaml";
@@ -37,7 +38,9 @@ struct Made {
     results.add(bad);
     variants = summarise(results, plan.budgets, plan.metrics.front());
   }
-  ReportData data() const { return {plan, results, variants, baseline, {"traverse", "batch"}}; }
+  ReportData data() const {
+    return {plan, results, variants, baseline, tables, {"traverse", "batch"}};
+  }
 };
 
 TEST(BatchReport, CarriesTheNumbersOfEveryRun) {

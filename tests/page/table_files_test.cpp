@@ -52,9 +52,9 @@ TEST(Markdown, IsOneLinePerRowAndTheBestIsBold) {
   result.mark_best({1});
   EXPECT_EQ(to_markdown(result),
             "| name | share [%] | count |\n|---|---|---|\n"
-            "| a, \"b\" | 0.333 | 12\u2009345 |\n"
-            "| 50 % of x_1 & {<} | **\u22122.50** | 1 |\n"
-            "| a\\|b | \u2013 | 2 |\n");
+            "| a, \"b\" | 0.333 | 12345 |\n"
+            "| 50 % of x_1 & {<} | **-2.50** | 1 |\n"
+            "| a\\|b | - | 2 |\n");
 }
 
 TEST(Text, StandsInColumns) {

@@ -46,8 +46,14 @@ std::string markdown_text(std::string text) {
   return text;
 }
 
+/// Numbers in plain characters: they are copied from documents.
 std::string markdown_of(const Cell& cell) {
-  const std::string text = markdown_text(cell.text);
+  std::string text = markdown_text(cell.text);
+  if (cell.numeric) {
+    replace(text, "\u2009", "");
+    replace(text, "\u2212", "-");
+    replace(text, "\u2013", "-");
+  }
   return cell.best ? "**" + text + "**" : text;
 }
 

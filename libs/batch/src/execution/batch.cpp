@@ -6,11 +6,14 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "traverse/batch/execute.hpp"
 #include "traverse/batch/journal.hpp"
 #include "traverse/batch/slurm.hpp"
 #include "traverse/files/atomic_file.hpp"
+#include "traverse/files/number_text.hpp"
+#include "traverse/pipeline/provenance.hpp"
 
 #include "execution/lock.hpp"
 #include "plan/own_folder.hpp"
@@ -19,6 +22,7 @@
 #include "results/baseline.hpp"
 #include "results/report.hpp"
 #include "results/summary.hpp"
+#include "results/tables.hpp"
 
 namespace traverse::batch {
 
@@ -50,9 +54,13 @@ class ResultWriter {
     write_json(folder_.results_json(), plan_, results_);
     files::write_text(folder_.leaderboard_tex(),
                       page::to_latex(leaderboard(variants, plan_.metrics)));
-    files::write_text(
-        folder_.report(),
-        batch_page({plan_, results_, variants, baseline, options_.command}, options_.templates));
+    const std::vector<ShownTable> tables = shown_tables(plan_, results_);
+    if (!tables.empty()) {
+      files::write_text(folder_.tables(), tables_markdown(plan_, tables, made()));
+    }
+    files::write_text(folder_.report(),
+                      batch_page({plan_, results_, variants, baseline, tables, options_.command},
+                                 options_.templates));
     regressed_ = baseline ? count_regressions(*baseline) : 0;
     next_ = Clock::now() +
             std::max<Clock::duration>(kWriteEvery, kWritingShare * (Clock::now() - began));
@@ -65,6 +73,13 @@ class ResultWriter {
   std::size_t regressed() const { return regressed_; }
 
  private:
+  std::string made() const {
+    const pipeline::BuildInfo build = pipeline::build_info();
+    return fmt::format("Made by `{}` with Traverse {}, commit `{}`; {} each run.",
+                       fmt::join(options_.command, " "), build.version, build.commit,
+                       files::plural(static_cast<std::size_t>(plan_.limits.threads), "thread"));
+  }
+
   static std::size_t count_regressions(const BaselineComparison& baseline) {
     const auto regressed = [](const auto& change) { return change.verdict == Verdict::kRegressed; };
     return static_cast<std::size_t>(

@@ -46,6 +46,15 @@ Variant resolve(const PlannedPipeline& pipeline, std::vector<std::string> point,
   }
 }
 
+/// The recording's, and over them the pipeline's.
+std::vector<std::string> statements_about(const PlannedRecording& recording,
+                                          const Variant& variant) {
+  std::vector<std::string> statements = recording.statements;
+  const auto& more = variant.pipeline.statements;
+  statements.insert(statements.end(), more.begin(), more.end());
+  return statements;
+}
+
 std::vector<std::string> run_arguments(const Plan& plan, const PlannedRecording& recording,
                                        const Variant& variant) {
   // The run works inside its own folder, so that its command holds wherever that is moved to.
@@ -60,7 +69,9 @@ std::vector<std::string> run_arguments(const Plan& plan, const PlannedRecording&
   if (!recording.statements_file.empty()) {
     add("--recording-config", recording.statements_file.string());
   }
-  for (const std::string& statement : recording.statements) add("--recording", statement);
+  for (const std::string& statement : statements_about(recording, variant)) {
+    add("--recording", statement);
+  }
   if (!recording.reference.empty()) add("--reference", recording.reference.string());
   if (!recording.reference_frame.empty()) add("--reference-frame", recording.reference_frame);
   if (recording.first > 0) add("--first", std::to_string(recording.first));
@@ -77,9 +88,9 @@ std::string identity_of(const Plan& plan, const PlannedRecording& recording,
   std::string text = fmt::format(
       "program {}\nrecording {}\nstatements {}\nreference_frame {}\nframes {} {}\nestimator {}\n"
       "configuration {}\nthreads {}\nreport {}\n",
-      program, recording_sha256, fmt::join(recording.statements, "; "), recording.reference_frame,
-      recording.first, recording.last, variant.estimator, variant.configuration_sha256,
-      plan.limits.threads, plan.reports);
+      program, recording_sha256, fmt::join(statements_about(recording, variant), "; "),
+      recording.reference_frame, recording.first, recording.last, variant.estimator,
+      variant.configuration_sha256, plan.limits.threads, plan.reports);
   return text + fmt::format("repeat {}\n", repeat);
 }
 
@@ -135,6 +146,7 @@ std::vector<Job> make_jobs(const Plan& plan, const RecordingDigests& recordings,
   std::vector<Job> jobs;
   for (const PlannedRecording& recording : plan.recordings) {
     for (const Variant& variant : variants) {
+      if (!recording.takes(variant.pipeline.name)) continue;
       for (int repeat = 1; repeat <= plan.repeats; ++repeat) {
         Job job;
         job.identity =

@@ -36,8 +36,8 @@ void require_own_folder(const BatchFolder& folder, const std::string& plan) {
   std::error_code failure;
   for (const fs::path& place :
        {folder.plan(), folder.jobs(), folder.digests(), folder.results_csv(), folder.results_json(),
-        folder.leaderboard_tex(), folder.report(), folder.recordings(), folder.runs(),
-        folder.journals(), folder.submissions(), lock}) {
+        folder.leaderboard_tex(), folder.tables(), folder.report(), folder.recordings(),
+        folder.runs(), folder.journals(), folder.submissions(), lock}) {
     if (!fs::exists(fs::symlink_status(place, failure))) continue;
     if (fs::is_directory(place, failure) && fs::is_empty(place, failure)) continue;
     if (fs::is_regular_file(place, failure)) {

@@ -9,14 +9,14 @@
 
 #include <fmt/format.h>
 
-#include "traverse/batch/metric.hpp"
 #include "traverse/files/number_text.hpp"
-#include "traverse/files/numbers.hpp"
 #include "traverse/files/text_file.hpp"
 
 #include "plan/plan_error.hpp"
+#include "plan/plan_metrics.hpp"
 #include "plan/plan_pipelines.hpp"
 #include "plan/plan_recordings.hpp"
+#include "plan/plan_tables.hpp"
 
 namespace traverse::batch {
 
@@ -36,39 +36,6 @@ void bind(Binder& b, RunLimits& limits) {
   b.integer("threads", limits.threads, Range::between(1, 256), "of a run");
   b.integer("attempts", limits.attempts, Range::between(1, 100),
             "tries of a run that was killed from outside");
-}
-
-void check_metric(const std::string& name, const config::Origin& origin) {
-  if (find_metric(name) == nullptr) {
-    throw plan_error(origin, "a metric (`traverse batch metrics` lists them)",
-                     files::in_quotes(name));
-  }
-}
-
-std::vector<std::string> read_metrics(const Document& document) {
-  if (!document.has("metrics")) return default_metrics();
-  std::vector<std::string> names;
-  for (const Document& item : document.items("metrics", "name")) {
-    const std::string name = item.scalar("name").value_or("");
-    check_metric(name, item.origin());
-    if (std::count(names.begin(), names.end(), name) > 0) {
-      throw plan_error(item.origin(), "each metric once", files::in_quotes(name) + " again");
-    }
-    names.push_back(name);
-  }
-  if (names.empty()) throw plan_error(*document.origin("metrics"), "at least one metric", "none");
-  return names;
-}
-
-std::vector<Budget> read_budgets(const Document& document) {
-  std::vector<Budget> budgets;
-  for (const config::Leaf& leaf : document.child("budgets").leaves()) {
-    check_metric(leaf.path, leaf.origin);
-    const auto most = files::parse_double(leaf.text);
-    if (!most) throw plan_error(leaf.origin, "a number for '" + leaf.path + "'", leaf.text);
-    budgets.push_back({leaf.path, *most});
-  }
-  return budgets;
 }
 
 SlurmOptions read_slurm(const Document& document, std::vector<std::string>& notes) {
@@ -100,11 +67,12 @@ SlurmOptions read_slurm(const Document& document, std::vector<std::string>& note
 }
 
 void read_settings(const Document& document, Plan& plan) {
-  static constexpr std::array<std::string_view, 6> kOthers{"recordings", "pipelines", "grid",
-                                                           "metrics",    "budgets",   "slurm"};
+  static constexpr std::array<std::string_view, 7> kOthers{
+      "recordings", "pipelines", "grid", "metrics", "budgets", "slurm", "tables"};
   config::read(
       document,
       [&](Binder& b) {
+        b.text("title", plan.title, "of what the batch is made for");
         b.text("description", plan.description, "purpose of the batch");
         b.integer("repeats", plan.repeats, Range::between(1, 10000), "runs of each combination");
         b.flag("reports", plan.reports, "pictures and report.html of each run");
@@ -127,15 +95,32 @@ std::size_t sum(std::size_t a, std::size_t b) {
   return __builtin_add_overflow(a, b, &result) ? kBeyondCount : result;
 }
 
+std::size_t count_points(const PlannedPipeline& pipeline) {
+  std::size_t points = 1;
+  for (const GridAxis& axis : pipeline.grid) points = product(points, axis.values.size());
+  return points;
+}
+
 /// Of all pipelines with each point of their grids.
 std::size_t count_variants(const Plan& plan) {
   std::size_t variants = 0;
   for (const PlannedPipeline& pipeline : plan.pipelines) {
-    std::size_t points = 1;
-    for (const GridAxis& axis : pipeline.grid) points = product(points, axis.values.size());
-    variants = sum(variants, points);
+    variants = sum(variants, count_points(pipeline));
   }
   return variants;
+}
+
+/// Recordings name pipelines that are there.
+void check_choices(const Plan& plan) {
+  for (const PlannedRecording& recording : plan.recordings) {
+    for (const std::string& name : recording.pipelines) {
+      const bool is_there =
+          std::any_of(plan.pipelines.begin(), plan.pipelines.end(),
+                      [&](const PlannedPipeline& pipeline) { return pipeline.name == name; });
+      if (is_there) continue;
+      throw plan_error(recording.origin, "names of the plan's pipelines", files::in_quotes(name));
+    }
+  }
 }
 
 }  // namespace
@@ -152,6 +137,8 @@ Plan load_plan(const std::filesystem::path& file, const std::filesystem::path& s
   plan.slurm = read_slurm(document, plan.notes);
   plan.recordings = read_recordings(document, plan.file.parent_path(), simulation_error);
   plan.pipelines = read_pipelines(document, plan.file.parent_path(), share_folder, plan.notes);
+  check_choices(plan);
+  plan.tables = read_tables(document, plan);
   if (count_runs(plan) > kMostRuns) {
     const char* key = document.has("grid") ? "grid" : "pipelines";
     throw plan_error(*document.origin(key),
@@ -159,6 +146,13 @@ Plan load_plan(const std::filesystem::path& file, const std::filesystem::path& s
                      describe(plan));
   }
   return plan;
+}
+
+void stop_after(std::int64_t last, Plan& plan) {
+  for (PlannedRecording& recording : plan.recordings) {
+    const std::int64_t there = recording.first + last;
+    recording.last = recording.last < 0 ? there : std::min(recording.last, there);
+  }
 }
 
 std::string describe(const Plan& plan) {
@@ -171,14 +165,23 @@ std::string describe(const Plan& plan) {
   const auto noun = [&](std::size_t n, const char* word) {
     return fmt::format("{} {}", number(n), files::noun(n, word));
   };
-  return fmt::format("{} x {} ({} with the grid) x {} = {}", noun(recordings, "recording"),
+  const bool all =
+      std::all_of(plan.recordings.begin(), plan.recordings.end(),
+                  [](const PlannedRecording& recording) { return recording.pipelines.empty(); });
+  return fmt::format("{} x {} ({} with the grid{}) x {} = {}", noun(recordings, "recording"),
                      noun(plan.pipelines.size(), "pipeline"), number(variants),
+                     all ? "" : ", where they are chosen",
                      noun(static_cast<std::size_t>(plan.repeats), "repeat"), noun(runs, "run"));
 }
 
 std::size_t count_runs(const Plan& plan) {
-  return product(product(plan.recordings.size(), count_variants(plan)),
-                 static_cast<std::size_t>(plan.repeats));
+  std::size_t pairs = 0;
+  for (const PlannedRecording& recording : plan.recordings) {
+    for (const PlannedPipeline& pipeline : plan.pipelines) {
+      if (recording.takes(pipeline.name)) pairs = sum(pairs, count_points(pipeline));
+    }
+  }
+  return product(pairs, static_cast<std::size_t>(plan.repeats));
 }
 
 std::vector<std::vector<std::string>> grid_points(const std::vector<GridAxis>& grid) {

@@ -14,6 +14,7 @@
 #include "traverse/pipeline/registry.hpp"
 
 #include "plan/plan_error.hpp"
+#include "plan/plan_parts.hpp"
 
 namespace traverse::batch {
 
@@ -64,7 +65,7 @@ PlannedPipeline read_entry(const Document& document, const std::vector<GridAxis>
                            const fs::path& folder) {
   PlannedPipeline pipeline;
   pipeline.origin = document.origin();
-  static constexpr std::array<std::string_view, 3> kOthers{"config", "set", "grid"};
+  static constexpr std::array<std::string_view, 4> kOthers{"config", "set", "grid", "statements"};
   config::read(
       document,
       [&](config::Binder& b) {
@@ -76,6 +77,7 @@ PlannedPipeline read_entry(const Document& document, const std::vector<GridAxis>
   if (pipeline.name.empty()) pipeline.name = fs::path(pipeline.preset).stem().string();
   pipeline.preset = find_preset(pipeline.preset, folder);
   pipeline.config_files = read_config_files(document, folder);
+  pipeline.statements = assignments_under(document, "statements");
 
   std::map<std::string, Origin> varied;
   pipeline.grid = common_grid;

@@ -12,6 +12,7 @@
 #include "traverse/files/input_error.hpp"
 
 #include "plan/plan_error.hpp"
+#include "plan/plan_parts.hpp"
 
 namespace traverse::batch {
 
@@ -45,14 +46,6 @@ fs::path existing_file(const Document& entry, std::string_view key, const std::s
   return file;
 }
 
-std::vector<std::string> read_statements(const Document& entry) {
-  std::vector<std::string> statements;
-  for (const config::Leaf& leaf : entry.child("statements").leaves()) {
-    statements.push_back(leaf.path + "=" + leaf.text);
-  }
-  return statements;
-}
-
 /// {length: 60, quiet: true} as the words --length 60 --quiet.
 std::vector<std::string> option_words(const Document& options) {
   std::vector<std::string> words;
@@ -72,14 +65,14 @@ Entry read_entry(const Document& document, const fs::path& folder) {
   std::string config_file;
   std::string reference;
   static constexpr std::array<std::string_view, 4> kFrames{"", "body", "lidar", "camera"};
-  static constexpr std::array<std::string_view, 2> kOthers{"statements", "arguments"};
+  static constexpr std::array<std::string_view, 3> kOthers{"statements", "arguments", "pipelines"};
   config::read(
       document,
       [&](Binder& b) {
         b.text("path", entry.path, "of the recording, or a glob");
-        b.text("simulate", entry.world,
-               "world that `traverse simulate` makes it of, with options");
+        b.text("simulate", entry.world, "world that `traverse simulate` makes it of, with options");
         b.numbers("seeds", entry.seeds, "one generated recording per seed");
+        b.text("text", recording.text, "above its tables");
         b.text("name", recording.name, "in tables");
         b.text("config", config_file, "statements about the recording");
         b.text("reference", reference, "reference trajectory");
@@ -99,7 +92,10 @@ Entry read_entry(const Document& document, const fs::path& folder) {
   }
   recording.statements_file = existing_file(document, "config", config_file, folder);
   recording.reference = existing_file(document, "reference", reference, folder);
-  recording.statements = read_statements(document);
+  recording.statements = assignments_under(document, "statements");
+  for (const Document& item : document.items("pipelines", "name")) {
+    recording.pipelines.push_back(item.scalar("name").value_or(""));
+  }
   for (const char* key : {"arguments", "seeds"}) {
     if (entry.world.empty() && document.has(key)) {
       throw plan_error(*document.origin(key), fmt::format("'{}' beside 'simulate' only", key),

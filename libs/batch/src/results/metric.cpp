@@ -10,6 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "traverse/evaluation/relation.hpp"
+#include "traverse/files/input_error.hpp"
+#include "traverse/files/numbers.hpp"
+#include "traverse/pipeline/frame_table.hpp"
 #include "traverse/pipeline/run_folder.hpp"
 
 namespace traverse::batch {
@@ -76,9 +79,15 @@ std::vector<Metric> make_metrics() {
                                    {"path_reference_m", "Path, reference", "m", false},
                                    {"pairs", "Pairs", "", false},
                                    {"mme", "Map entropy", "nats"},
+                                   {"mme_queries", "Map entropy, queries", "", false},
                                    {"mpv_m", "Plane deviation", "m"},
+                                   {"odometry_ape_translation_rmse", "APE before loops", "m"},
+                                   {"odometry_mme", "Map entropy before loops", "nats"},
+                                   {"loop_candidates", "Loop candidates", "", false},
+                                   {"loops_accepted", "Loops closed", "", false},
                                    {"frames_used", "Frames used", "", false},
                                    {"frames_skipped", "Records skipped", ""},
+                                   {"degenerate_frames", "Degenerate frames", ""},
                                    {"map_points", "Map points", "", false},
                                    {"frame_median_ms", "Time per frame", "ms", true, true},
                                    {"frame_p95_ms", "Time per frame, 95 %", "ms", true, true},
@@ -139,6 +148,7 @@ void take_accuracy(const json& evaluation, Values& values) {
   take(evaluation, "/path/reference_m", "path_reference_m", values);
   take(evaluation, "/association/pairs", "pairs", values);
   take(evaluation, "/consistency/mme", "mme", values);
+  take(evaluation, "/consistency/queries", "mme_queries", values);
   take(evaluation, "/consistency/mpv_m", "mpv_m", values);
 }
 
@@ -154,6 +164,39 @@ void take_run(const json& run, Values& values) {
     for (const json& count : run["frames"]["skipped"]) skipped += count.get<double>();
     values["frames_skipped"] = skipped;
   }
+}
+
+/// Of a run that closed loops: its odometry, and what became of the candidates.
+void take_loops(const pipeline::RunFolder& folder, Values& values) {
+  const json odometry = read_figures(folder.odometry_evaluation());
+  take(odometry, "/ape/translation/rmse", "odometry_ape_translation_rmse", values);
+  take(odometry, "/consistency/mme", "odometry_mme", values);
+  std::ifstream stream(folder.loops());
+  std::string line;
+  if (!std::getline(stream, line)) return;
+  const auto heads = files::split_cells(line, ',');
+  const auto verdict = std::find(heads.begin(), heads.end(), "verdict");
+  if (verdict == heads.end()) return;
+  const auto column = static_cast<std::size_t>(verdict - heads.begin());
+  double candidates = 0;
+  double accepted = 0;
+  while (std::getline(stream, line)) {
+    const auto cells = files::split_cells(line, ',');
+    ++candidates;
+    if (column < cells.size() && cells[column] == "accepted") ++accepted;
+  }
+  values["loop_candidates"] = candidates;
+  values["loops_accepted"] = accepted;
+}
+
+/// Of an estimator that tells which directions its scans determine.
+void take_degenerate(const pipeline::RunFolder& folder, Values& values) {
+  if (!std::filesystem::is_regular_file(folder.frames())) return;
+  const auto frames = pipeline::FrameTable::read_csv(folder.frames());
+  if (!frames.has("degenerate_directions")) return;
+  const std::vector<double> directions = frames.column("degenerate_directions");
+  values["degenerate_frames"] = static_cast<double>(
+      std::count_if(directions.begin(), directions.end(), [](double count) { return count > 0; }));
 }
 
 }  // namespace
@@ -188,8 +231,12 @@ std::vector<std::pair<std::string, double>> read_metrics(const std::filesystem::
   try {
     take_accuracy(read_figures(folder.evaluation()), values);
     take_run(read_figures(folder.record()), values);
+    take_loops(folder, values);
+    take_degenerate(folder, values);
   } catch (const json::exception&) {
     values.clear();  // not files of this program: a run that crashed while it wrote
+  } catch (const files::InputError&) {
+    values.clear();
   }
   std::vector<std::pair<std::string, double>> ordered;
   for (const Metric& metric : known_metrics()) {

@@ -207,10 +207,26 @@ page::Table made(const ReportData& data) {
   return table;
 }
 
+/// The tables that the plan asks for, on the page one heading lower than in their document.
+Data planned_tables(const ReportData& data) {
+  Data list = Data::list();
+  for (const ShownTable& shown : data.tables) {
+    Data entry;
+    entry.set("above", shown.level == 2 && !shown.heading.empty());
+    entry.set("below", shown.level == 3 && !shown.heading.empty());
+    entry.set("heading", shown.heading);
+    entry.set("text", shown.text.empty() ? Data(false) : Data(shown.text));
+    entry.set("table_planned", shown.table ? shown.table->data() : Data(false));
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
 std::vector<page::Section> sections(const ReportData& data, const Counts& counts) {
   const bool has_grid = std::any_of(data.variants.begin(), data.variants.end(),
                                     [](const auto& variant) { return !variant.settings.empty(); });
   std::vector<page::Section> sections{{"verdict", "Verdict"}, {"leaderboard", "Leaderboard"}};
+  if (!data.tables.empty()) sections.push_back({"tables", "Tables"});
   if (data.baseline) sections.push_back({"baseline", "Against the baseline"});
   sections.push_back({"recordings", "Recordings and pipelines"});
   sections.push_back({"distribution", "Distribution"});
@@ -239,6 +255,7 @@ std::string batch_page(const ReportData& data, const std::filesystem::path& temp
     parts.set("baseline_source", data.baseline->source);
     parts.set("baseline_rule", kBaselineRule);
   }
+  parts.set("tables", planned_tables(data));
   parts.set("failures", failures(data));
   parts.set("table_made", made(data).data());
   parts.set("plan", data.plan.text);

@@ -10,6 +10,7 @@
 
 #include "results/baseline.hpp"
 #include "results/summary.hpp"
+#include "results/tables.hpp"
 
 namespace traverse::batch {
 
@@ -19,6 +20,7 @@ struct ReportData {
   const Results& results;
   const std::vector<VariantSummary>& variants;
   const std::optional<BaselineComparison>& baseline;
+  const std::vector<ShownTable>& tables;
   std::vector<std::string> command;
 };
 

@@ -67,10 +67,9 @@ struct BatchEnd {
   std::size_t regressed = 0;    ///< against the baseline
 };
 
-/// Runs what is not finished of the plan and writes results.csv, results.json, leaderboard.tex and
-/// batch.html, now and then on the way and at the end.
-/// \throws files::InputError, files::OutputError; std::runtime_error if another batch is at work
-/// in the folder
+/// Runs what is not finished of the plan and writes results.csv, results.json, leaderboard.tex,
+/// tables.md and batch.html, now and then on the way and at the end. \throws files::InputError,
+/// files::OutputError; std::runtime_error if another batch is at work in the folder
 BatchEnd run_batch(Plan plan, const BatchFolder& folder, const BatchOptions& options,
                    const BatchObserver& observer);
 

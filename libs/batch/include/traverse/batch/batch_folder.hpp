@@ -19,6 +19,8 @@ struct BatchFolder {
   std::filesystem::path results_csv() const { return path / "results.csv"; }
   std::filesystem::path results_json() const { return path / "results.json"; }
   std::filesystem::path leaderboard_tex() const { return path / "leaderboard.tex"; }
+  /// The tables that the plan asks for, as Markdown.
+  std::filesystem::path tables() const { return path / "tables.md"; }
   std::filesystem::path report() const { return path / "batch.html"; }
 
   /// The folder's name of a run: the first 16 digits of its id.

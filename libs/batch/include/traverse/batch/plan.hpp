@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "traverse/batch/planned_table.hpp"
 #include "traverse/config/document.hpp"
 
 namespace traverse::batch {
@@ -30,6 +32,7 @@ struct GeneratedRecording {
 
 struct PlannedRecording {
   std::string name;            ///< once in the plan
+  std::string text;            ///< above its tables; may be empty
   std::filesystem::path path;  ///< absolute; empty as long as a generated one is not made
   std::optional<GeneratedRecording> generated;
   std::filesystem::path statements_file;  ///< absolute, or empty
@@ -37,8 +40,14 @@ struct PlannedRecording {
   std::filesystem::path reference;        ///< absolute, or empty
   std::string reference_frame;            ///< body, lidar, camera, or empty
   std::int64_t first = 0;
-  std::int64_t last = -1;  ///< included; -1: to the end
+  std::int64_t last = -1;              ///< included; -1: to the end
+  std::vector<std::string> pipelines;  ///< that it goes through, by name; empty: all
   config::Origin origin;
+
+  bool takes(const std::string& pipeline) const {
+    return pipelines.empty() ||
+           std::find(pipelines.begin(), pipelines.end(), pipeline) != pipelines.end();
+  }
 };
 
 /// A setting and the values it takes in turn.
@@ -53,6 +62,7 @@ struct PlannedPipeline {
   std::string preset;  ///< of share/pipelines, or the absolute path of a YAML file
   std::vector<std::filesystem::path> config_files;
   std::vector<std::string> assignments;  ///< "solver.huber_m=0.2"
+  std::vector<std::string> statements;   ///< about each recording, over the recording's own
   std::vector<GridAxis> grid;            ///< the plan's axes, then its own
   config::Origin origin;
 };
@@ -72,7 +82,8 @@ struct SlurmOptions {
 /// Recordings x pipelines x grid x repeats, and how to run them; docs/batch.md describes the file.
 struct Plan {
   std::filesystem::path file;
-  std::string text;  ///< of the file, for the report
+  std::string text;   ///< of the file, for the report
+  std::string title;  ///< of what it is made for; may be empty
   std::string description;
   std::vector<PlannedRecording> recordings;
   std::vector<PlannedPipeline> pipelines;
@@ -83,6 +94,7 @@ struct Plan {
   RunLimits limits;
   config::Origin threads_origin;  ///< where limits.threads stands, if it does
   config::Origin memory_origin;
+  std::vector<PlannedTable> tables;  ///< beside the leaderboard
   SlurmOptions slurm;
   std::vector<std::string> notes;  ///< for the user: keys that were given by former names
 };
@@ -96,6 +108,9 @@ using SimulationCheck =
 /// \throws files::InputError with file and line.
 Plan load_plan(const std::filesystem::path& file, const std::filesystem::path& share_folder,
                const SimulationCheck& simulation_error);
+
+/// Lets no run go on after frame `last`, counted from 0.
+void stop_after(std::int64_t last, Plan& plan);
 
 /// The numbers that multiply to the number of runs, in words: "2 recordings x 3 pipelines ...".
 std::string describe(const Plan& plan);

@@ -68,7 +68,8 @@ class Table {
 };
 
 /// The table as CSV (RFC 4180, all digits), LaTeX (booktabs) and Markdown, the last two with
-/// numbers as the page shows them. reports/templates/tables.js writes the same CSV and LaTeX.
+/// numbers as the page shows them, Markdown's in plain characters. reports/templates/tables.js
+/// writes the same CSV and LaTeX.
 std::string to_csv(const Table& table);
 std::string to_latex(const Table& table);
 std::string to_markdown(const Table& table);
