@@ -1,0 +1,147 @@
+#include "end_to_end/cases.hpp"
+
+#include <cctype>
+#include <cstddef>
+#include <filesystem>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "traverse/evaluation/json.hpp"
+#include "traverse/files/json_document.hpp"
+
+#include "end_to_end/program.hpp"
+#include "temporary_folder.hpp"
+
+/// Small inputs that went wrong for users (a README in each says what is right), run by the whole
+/// program. A row a case: what is right, not what it happens to do.
+namespace traverse {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ProgramResult;
+using testing::TemporaryFolder;
+
+/// How a command may end. A case may leave several open: whether a recording of which nothing can
+/// be made is refused or lost is not for it to say.
+enum Outcome : unsigned {
+  kOk = 1,        ///< exit status 0; of a run, with the status ok
+  kDegraded = 2,  ///< a run: exit status 0 and the status degraded
+  kLost = 4,      ///< a run: exit status 1, everything written, the status lost
+  kRefused = 8,   ///< exit status 1 or 2 and a message; of a run, no run folder with poses
+};
+
+struct Case {
+  std::string folder;
+  /// In the case's folder; OUT is a folder that is not there yet. A run gets `-o OUT --no-report
+  /// --no-hash` as well.
+  std::string arguments;
+  unsigned outcome = kOk;              ///< one of them
+  double max_ape_m = 0;                ///< of the run's evaluation; 0: not asked for
+  std::vector<std::string> says = {};  ///< in what it prints, stdout or stderr
+};
+
+void PrintTo(const Case& row, std::ostream* out) { *out << row.folder << ": " << row.arguments; }
+
+std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
+
+const std::vector<Case>& rows() {
+  static const std::vector<Case> kRows{
+      // Right from the beginning, and to stay so.
+      {"ok_fov70_noring", "run . --reference truth.tum", kOk, 0.015},
+      {"ok_kitti_times_blank_lines", "run .", kOk | kDegraded, 0, {"stamp"}},
+      {"ok_nav_D03b_gnss_000_middle", "run log.txt --pipeline gins-window --reference truth.tum",
+       kOk | kDegraded, 0.03},
+      {"ok_nav_D04_enc_int16", "run log.txt --pipeline gins-window --reference truth.tum", kOk,
+       0.03},
+      {"ok_nav_D06_south", "run log.txt --pipeline gins-window --reference truth.tum", kOk, 0.03},
+      {"ok_nav_D09b_alt_zero_some", "run log.txt --pipeline gins-window --reference truth.tum",
+       kOk | kDegraded, 0.03},
+      {"ok_nav_D12_grouped", "run log.txt --pipeline gins-window --reference truth.tum", kOk, 0.03},
+      {"ok_nav_D19_gnss_outlier_100m", "run log.txt --pipeline gins-window --reference truth.tum",
+       kOk | kDegraded, 0.03},
+      {"ok_own_body_1.1m", "run . --reference truth.tum", kOk, 0.04},
+      {"ok_pcd_dos_header_binary", "run . --reference truth.tum", kOk, 0.015},
+      {"ok_pcd_no_count", "run . --reference truth.tum", kOk, 0.015},
+      {"ok_ply_big_endian", "run . --reference truth.tum", kOk, 0.015},
+      {"ok_ring_float", "run . --reference truth.tum", kOk, 0.015},
+      {"ok_ring_one_based", "run . --reference truth.tum", kOk, 0.015},
+      {"ok_time_decreasing", "run . --reference truth.tum", kOk, 0.015},
+      {"ok_town_vlp16", "run . --reference truth.tum", kOk, 0.01},
+      {"ok_viewpoint_ignored", "run . --reference truth.tum", kOk, 0.015},
+      {"ok_width_zero_points_right", "run . --reference truth.tum", kOk, 0.015},
+  };
+  return kRows;
+}
+
+std::string placed(std::string arguments, const fs::path& out) {
+  if (arguments.starts_with("run ") || arguments.starts_with("localize ")) {
+    arguments += " -o OUT --no-report --no-hash";
+  }
+  for (std::size_t at = 0; (at = arguments.find("OUT", at)) != std::string::npos;) {
+    arguments.replace(at, 3, quoted(out));
+    at += quoted(out).size();
+  }
+  return arguments;
+}
+
+/// What the command came to. \param out where a run stands
+unsigned outcome_of(const ProgramResult& result, const fs::path& out) {
+  const fs::path record = out / "run.json";
+  if (!fs::exists(record) || !fs::exists(out / "trajectory.tum")) {
+    return result.status == 0 ? kOk : kRefused;
+  }
+  const std::string status = files::JsonDocument::read(record).root()["status"].text();
+  if (status == "ok" && result.status == 0) return kOk;
+  if (status == "degraded" && result.status == 0) return kDegraded;
+  if (status == "lost" && result.status == 1) return kLost;
+  return 0;
+}
+
+double ape_of(const fs::path& run) {
+  const auto evaluation = evaluation::read_evaluation(run / "evaluation.json");
+  if (!evaluation.comparison) return -1;
+  for (const auto& ape : evaluation.comparison->ape) {
+    if (ape.relation == evaluation::Relation::kTranslation) return ape.statistics.rmse;
+  }
+  return -1;
+}
+
+class Cases : public ::testing::TestWithParam<Case> {};
+
+TEST_P(Cases, ComeToWhatIsRight) {
+  if (testing::cases().empty()) GTEST_SKIP() << testing::kNoCases;
+  const Case& row = GetParam();
+  const fs::path folder = testing::cases() / row.folder;
+  ASSERT_TRUE(fs::is_directory(folder)) << "no case " << row.folder;
+  const TemporaryFolder temporary;
+  const fs::path out = temporary / "out";
+  const ProgramResult result = testing::run_program(
+      placed(row.arguments, out), "cd " + quoted(folder) + " && " + TRAVERSE_PROGRAM);
+  const unsigned outcome = outcome_of(result, out);
+  EXPECT_NE(outcome & row.outcome, 0U)
+      << "outcome " << outcome << " of " << row.outcome << ", exit status " << result.status << '\n'
+      << result.everything();
+  for (const std::string& words : row.says) {
+    EXPECT_THAT(result.everything(), ::testing::HasSubstr(words));
+  }
+  if (row.max_ape_m == 0 || outcome == kRefused) return;
+  const double ape_m = ape_of(out);
+  EXPECT_GE(ape_m, 0) << "no comparison with the reference";
+  EXPECT_LE(ape_m, row.max_ape_m);
+}
+
+std::string test_name(const ::testing::TestParamInfo<Case>& row) {
+  std::string name;
+  for (const char c : row.param.folder)
+    name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return name + "_" + std::to_string(row.index);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfUsers, Cases, ::testing::ValuesIn(rows()), test_name);
+
+}  // namespace
+}  // namespace traverse
