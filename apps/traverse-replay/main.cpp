@@ -101,6 +101,14 @@ int run_window(const OpenRequest& request, replay::Player& player, const std::st
   return status;
 }
 
+/// What must be known of a run before anybody looks at it.
+void print_health(const replay::Recording& recording) {
+  const pipeline::RunHealth* health = recording.health();
+  if (health == nullptr || health->reasons.empty()) return;
+  print_message("traverse-replay: this run is {}: {}\n", name_of(health->verdict),
+                health->summary());
+}
+
 int replay_file(const OpenRequest& request) {
   std::optional<replay::Player> player;
   try {
@@ -115,6 +123,7 @@ int replay_file(const OpenRequest& request) {
       show_message("Traverse replay: nothing to show", error_text("traverse-replay"));
     return kFailure;
   }
+  print_health(player->recording());
   if (glfwInit() == GLFW_FALSE) {
     print_message(
         "traverse-replay: no display to open a window on; under "

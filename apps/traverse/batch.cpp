@@ -94,7 +94,7 @@ std::string complaint(const batch::BatchEnd& end, bool all_expected) {
   };
   for (const auto& [outcome, rows] : end.state.outcomes) {
     finished += rows;
-    if (outcome != batch::Outcome::kOk) add(rows, name_of(outcome));
+    if (!is_usable(outcome)) add(rows, name_of(outcome));
   }
   if (all_expected) add(end.state.rows - finished, "not made");
   add(end.over_budget, "over budget");
@@ -144,9 +144,14 @@ void run_plan(const BatchArguments& arguments, const std::vector<std::string>& c
     observer.tick = [&](const auto& state, const auto& running) { progress.tick(state, running); };
     end = batch::run_batch(plan, folder, options, observer);
   }
-  const auto ok = end.state.outcomes.find(batch::Outcome::kOk);
-  fmt::print("{} of {} runs are ok; {} made now, {} finished before\n",
-             ok == end.state.outcomes.end() ? 0 : ok->second, end.state.rows, end.state.made,
+  const auto count = [&](batch::Outcome outcome) {
+    const auto found = end.state.outcomes.find(outcome);
+    return found == end.state.outcomes.end() ? 0 : found->second;
+  };
+  const std::size_t degraded = count(batch::Outcome::kDegraded);
+  fmt::print("{} of {} runs are ok{}; {} made now, {} finished before\n",
+             count(batch::Outcome::kOk), end.state.rows,
+             degraded > 0 ? fmt::format(", {} degraded", degraded) : "", end.state.made,
              end.state.finished - std::min(end.state.finished, end.state.made));
   fmt::print("results    {}\nreport     {}\n", folder.results_csv().string(),
              folder.report().string());

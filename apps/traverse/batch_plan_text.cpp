@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "traverse/batch/results.hpp"
 #include "traverse/files/number_text.hpp"
 
 namespace traverse::app {
@@ -50,7 +51,7 @@ void print_plan(const batch::Plan& plan) {
   for (std::size_t i = 1; i < plan.metrics.size(); ++i) fmt::print(", {}", plan.metrics[i]);
   fmt::print("\n");
   for (const auto& budget : plan.budgets) {
-    fmt::print("  budget: {} at most {:g}\n", budget.metric, budget.most);
+    fmt::print("  budget: {} {} {:g}\n", budget.metric, limit_words(budget), budget.most);
   }
   if (!plan.tables.empty()) {
     fmt::print("tables\n");

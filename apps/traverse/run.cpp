@@ -87,11 +87,18 @@ void write_utm(const pipeline::Estimator& estimator, const pipeline::RunFolder& 
              folder.utm_trajectory().filename().string());
 }
 
+/// With a map, the preset's odometry is followed in it.
+pipeline::PresetRequest preset_request(const RunArguments& arguments,
+                                       const std::filesystem::path& share) {
+  if (arguments.map.empty()) return arguments.preset;
+  const pipeline::RunFolder map{std::filesystem::absolute(arguments.map)};
+  return pipeline::localizing_in(map.keyframes(), arguments.start, arguments.preset, share);
+}
+
 /// A wrong preset or setting is wrong usage, told before anything is opened.
-pipeline::Preset checked_preset(const pipeline::PresetRequest& request,
-                                const std::filesystem::path& share) {
+pipeline::Preset checked_preset(const RunArguments& arguments, const std::filesystem::path& share) {
   try {
-    pipeline::Preset preset = pipeline::load_preset(request, share);
+    pipeline::Preset preset = pipeline::load_preset(preset_request(arguments, share), share);
     print_notes(pipeline::settings_notes(preset));
     return preset;
   } catch (const files::InputError& error) {
@@ -133,8 +140,7 @@ class RunExtras {
             const pipeline::RunRecord& record, const std::filesystem::path& templates,
             const std::filesystem::path& place) {
     if (arguments_.utm) attempt([&] { write_utm(estimator, folder_); });
-    const bool is_complete = record.status == pipeline::RunStatus::kOk;
-    if (arguments_.bench_factors && is_complete) {
+    if (arguments_.bench_factors && is_complete(record.status)) {
       attempt([&] { measure_factors(source, record, folder_); });
     }
     if (arguments_.report) {
@@ -195,13 +201,6 @@ void add_statements_and_settings(RunArguments& arguments) {
   if (arguments.slam) {
     arguments.preset.assignments.push_back(*arguments.slam ? "slam.use=true" : "slam.use=false");
   }
-  if (!arguments.map.empty()) {
-    const pipeline::RunFolder map{std::filesystem::absolute(arguments.map)};
-    arguments.preset.assignments.push_back("slam.localize.map=" +
-                                           config::to_text(map.keyframes().string()));
-    arguments.preset.assignments.push_back(
-        fmt::format("slam.localize.start=[{}]", fmt::join(arguments.start, ", ")));
-  }
 }
 
 std::vector<pipeline::RunDestination::Input> inputs_of(const RunArguments& arguments) {
@@ -237,6 +236,12 @@ class WorkingDirectory {
   std::filesystem::path path_ = std::filesystem::current_path();
 };
 
+/// A run that is lost came to its end all the same: that it is lost is what it has to tell.
+pipeline::RunDestination::Outcome outcome_of(const pipeline::RunRecord& record) {
+  using Outcome = pipeline::RunDestination::Outcome;
+  return is_complete(record.status) ? Outcome::kComplete : Outcome::kPartial;
+}
+
 /// Gives the run its name, says what came of it, and throws what the exit status is to tell.
 void finish_run(const RunArguments& arguments, pipeline::RunDestination& destination,
                 const pipeline::RunRecord& record, const RunExtras& extras,
@@ -245,7 +250,7 @@ void finish_run(const RunArguments& arguments, pipeline::RunDestination& destina
   using Outcome = pipeline::RunDestination::Outcome;
   const bool has_frames = record.frames_used > 0;
   const bool had_run = destination.has_earlier_run();
-  const Outcome outcome = record.status == RunStatus::kOk ? Outcome::kComplete : Outcome::kPartial;
+  const Outcome outcome = outcome_of(record);
   const std::string earlier = destination.given().string();
   if (!has_frames && had_run) {
     const std::string kept = fmt::format("; {} is the earlier run, as it was", earlier);
@@ -269,7 +274,7 @@ void finish_run(const RunArguments& arguments, pipeline::RunDestination& destina
       fmt::print("no report was made: `traverse report {}` makes it\n", folder.path.string());
     }
     fmt::print("interrupted: {}, {}; {}\n",
-               record.status == RunStatus::kOk ? "the run is complete" : record.reason,
+               is_complete(record.status) ? "the run is complete" : record.reason,
                files::plural(record.frames_used, "frame"), stands);
     throw CLI::RuntimeError(stop.exit_status());
   }
@@ -284,6 +289,10 @@ void finish_run(const RunArguments& arguments, pipeline::RunDestination& destina
         fmt::format("the run is complete, but could not take its place ({}); {}",
                     destination.why_beside(), stands));
   }
+  if (record.status == RunStatus::kLost) {
+    throw std::runtime_error(
+        fmt::format("the run is lost. {} Everything is written: {}", record.reason, stands));
+  }
   if (!record.evaluation_error.empty()) {
     throw std::runtime_error("the run is complete, but it could not be compared with " +
                              record.reference_file.value_or("its reference") + ": " +
@@ -295,7 +304,7 @@ void finish_run(const RunArguments& arguments, pipeline::RunDestination& destina
 void run_recording(RunArguments& arguments, const std::vector<std::string>& command) {
   add_statements_and_settings(arguments);
   const InstalledFiles installed = find_installed_files();
-  const pipeline::Preset preset = checked_preset(arguments.preset, installed.share);
+  const pipeline::Preset preset = checked_preset(arguments, installed.share);
   if (arguments.budget) report::require_valid_budget(*arguments.budget);
   pipeline::RunDestination destination(arguments.folder, inputs_of(arguments));
   const std::unique_ptr<dataset::Source> source = arguments.recording.open();
@@ -318,20 +327,16 @@ void run_recording(RunArguments& arguments, const std::vector<std::string>& comm
   };
   pipeline::RunRecord record = pipeline::run(*source, pipeline, folder, options, observer);
 
-  using Outcome = pipeline::RunDestination::Outcome;
-  const auto place = [&] {
-    const bool is_complete = record.status == pipeline::RunStatus::kOk;
-    return destination.place(is_complete ? Outcome::kComplete : Outcome::kPartial, arguments.force);
-  };
+  const auto place = [&] { return destination.place(outcome_of(record), arguments.force); };
   const std::string reason = record.reason;
   record.reason = destination.in_words(reason, place());
   if (record.reason != reason) pipeline::write_record(folder, record);
   RunExtras extras(arguments, folder, stop);
   if (record.frames_used > 0) {
-    if (record.status == pipeline::RunStatus::kOk) stage.set_drawing();
+    if (is_complete(record.status)) stage.set_drawing();
     extras.make(*source, *pipeline.estimator, record, installed.templates, place());
   }
-  if (!extras.failure().empty() && record.status == pipeline::RunStatus::kOk) {
+  if (!extras.failure().empty() && is_complete(record.status)) {
     record.status = pipeline::RunStatus::kFailed;
     record.reason = destination.in_words(extras.failure(), place());
     pipeline::write_record(folder, record);

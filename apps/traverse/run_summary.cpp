@@ -1,6 +1,7 @@
 #include "run_summary.hpp"
 
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,33 +15,60 @@ void print_line(const char* name, const std::string& value) {
   fmt::print("{:<11}{}\n", name, value);
 }
 
+/// How far the run can be believed, and why no farther.
+void print_status(const pipeline::RunRecord& record) {
+  if (record.status == pipeline::RunStatus::kInterrupted) print_line("status", "interrupted");
+  if (!record.health) return;
+  const pipeline::RunHealth& health = *record.health;
+  const char* name = record.status == pipeline::RunStatus::kInterrupted ? "" : "status";
+  if (health.reasons.empty()) return;
+  print_line(name, std::string(name_of(health.verdict)));
+  for (const pipeline::HealthReason& reason : health.reasons) print_line("", reason.text);
+}
+
 std::string frames_text(const pipeline::RunRecord& record) {
   std::string text = fmt::format("{} estimated", record.frames_used);
-  if (record.skipped.empty()) return text + ", nothing skipped";
+  if (record.health && record.health->registrable > 0) {
+    text +=
+        fmt::format(", {} of {} registered", record.health->registered, record.health->registrable);
+  }
+  if (record.skipped.empty()) return text + ", no record skipped";
   for (const auto& [reason, count] : record.skipped.by_reason()) {
     text += fmt::format("; {} skipped: {}", count.count, reason);
   }
   return text;
 }
 
+/// Of the sensors that the estimator takes, what was not used: scans are told by the frames.
+void print_sensors(const pipeline::RunRecord& record) {
+  if (!record.health) return;
+  const char* name = "sensors";
+  for (const pipeline::SensorUse& sensor : record.health->sensors) {
+    if (sensor.kind == sensors::SensorKind::kLidar || !sensor.is_taken) continue;
+    print_line(name, fmt::format("{}: {} of {} readings used, {} rejected, {} unused", sensor.label,
+                                 sensor.used, sensor.read, sensor.rejected, sensor.unused()));
+    name = "";
+  }
+}
+
 void print_accuracy(const evaluation::Comparison& comparison) {
+  const char* name = "accuracy";
+  const auto print = [&](const std::string& text) { print_line(std::exchange(name, ""), text); };
+  if (const auto& kitti = comparison.kitti) {
+    print(fmt::format("drift {:.2f} %, {:.4f} deg/m (KITTI, mean over {} segments, {} frame)",
+                      kitti->translation_percent, kitti->rotation_deg_per_m, kitti->segments.size(),
+                      kitti->frame));
+  }
   for (const evaluation::Ape& ape : comparison.ape) {
     if (ape.relation != evaluation::Relation::kTranslation) continue;
-    print_line("accuracy", fmt::format("APE {:.3f} m rmse over {} poses", ape.statistics.rmse,
-                                       ape.statistics.count));
+    print(fmt::format("APE {:.3f} m (rmse over {} poses)", ape.statistics.rmse,
+                      ape.statistics.count));
   }
   const evaluation::PathFigures& path = comparison.path;
-  print_line(
-      "",
-      fmt::format("end error {:.3f} m{} of {:.1f} m, {:.2f} deg", path.end_error_m,
-                  path.end_error_percent ? fmt::format(", {:.2f} %", *path.end_error_percent) : "",
+  print(
+      fmt::format("closing error {:.3f} m{} after {:.1f} m, {:.2f} deg", path.end_error_m,
+                  path.end_error_percent ? fmt::format(" ({:.2f} %)", *path.end_error_percent) : "",
                   path.reference_m, path.end_rotation_deg));
-  if (comparison.kitti) {
-    print_line(
-        "", fmt::format("KITTI drift {:.2f} %, {:.4f} deg/m over {} segments ({} frame)",
-                        comparison.kitti->translation_percent, comparison.kitti->rotation_deg_per_m,
-                        comparison.kitti->segments.size(), comparison.kitti->frame));
-  }
 }
 
 }  // namespace
@@ -48,9 +76,13 @@ void print_accuracy(const evaluation::Comparison& comparison) {
 void print_run_summary(const pipeline::RunRecord& record, const pipeline::RunFolder& folder,
                        bool with_report) {
   const evaluation::Evaluation evaluation = evaluation::read_evaluation(folder.evaluation());
-  if (record.status == pipeline::RunStatus::kInterrupted) print_line("status", "interrupted");
+  print_status(record);
   print_line("frames", frames_text(record));
+  if (const std::string& refused = record.recording.refused_reference; !refused.empty()) {
+    print_line("reference", "not used: " + refused);
+  }
   if (evaluation.comparison) print_accuracy(*evaluation.comparison);
+  print_sensors(record);
   if (evaluation.consistency) {
     print_line("map",
                fmt::format("entropy (MME) {:.3f}, {} points ({})", evaluation.consistency->mme,

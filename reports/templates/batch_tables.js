@@ -47,7 +47,7 @@ function drawLeaderboard() {
 // Runs that are ok of a recording and a variant; both null for all.
 const okByPlace = new Map();
 for (const run of data.runs) {
-  if (run.outcome !== "ok") continue;
+  if (run.outcome !== "ok" && run.outcome !== "degraded") continue;
   const key = `${run.recording} ${run.variant}`;
   if (!okByPlace.has(key)) okByPlace.set(key, []);
   okByPlace.get(key).push(run);
@@ -94,8 +94,8 @@ function drawPipeline(variant) {
 function drawRuns() {
   const rows = data.runs.map((run) => ({
     cells: [data.recordings[run.recording], data.variants[run.variant].name, run.repeat,
-      { value: run.outcome ?? "not made", html: `<span class="outcome ${run.outcome === "ok" ? "ok" : "bad"}">${escapeHtml(run.outcome ?? "not made")}</span>` },
-      ...run.values.map((value, k) => ({ value, className: data.budgets.some((budget) => budget.metric === data.metrics[k].key && value !== null && value > budget.most) ? "over" : "" })),
+      { value: run.outcome ?? "not made", html: `<span class="outcome ${run.outcome === "ok" || run.outcome === "degraded" ? run.outcome : "bad"}">${escapeHtml(run.outcome ?? "not made")}</span>` },
+      ...run.values.map((value, k) => ({ value, className: data.budgets.some((budget) => budget.metric === data.metrics[k].key && value !== null && (data.metrics[k].higher ? value < budget.most : value > budget.most)) ? "over" : "" })),
       { value: run.folder ?? "", html: run.folder === null ? "–"
         : `<a href="${escapeHtml(run.folder)}/${run.report ? "report.html" : "run.json"}">${run.report ? "report" : "run.json"}</a> · <a href="${escapeHtml(run.folder)}/log.txt">log</a>` }],
   }));

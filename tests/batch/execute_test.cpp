@@ -95,6 +95,25 @@ TEST_F(Execute, EveryEndIsARowWithItsReason) {
   }
 }
 
+/// What a run says of itself counts, not its exit status alone.
+TEST_F(Execute, ARunThatIsLostIsAFailureAndOneThatIsDegradedIsNot) {
+  const auto ends = [&](const std::string& status, int exit_status) {
+    const Job one = job("one", "mkdir run; echo '{\"status\": \"" + status +
+                                   "\", \"reason\": \"0 of 23 frames\"}' > run/run.json; exit " +
+                                   std::to_string(exit_status));
+    const auto completion = run(one);
+    discard(folder_, one);
+    return *completion;
+  };
+  EXPECT_EQ(ends("ok", 0).outcome, Outcome::kOk);
+  EXPECT_EQ(ends("lost", 1).outcome, Outcome::kLost);
+  EXPECT_EQ(ends("lost", 1).reason, "0 of 23 frames");
+  EXPECT_EQ(ends("degraded", 0).outcome, Outcome::kDegraded);
+  EXPECT_EQ(ends("degraded", 0).reason, "0 of 23 frames");
+  EXPECT_EQ(ends("degraded", 1).outcome, Outcome::kFailed);  // over its budget, say
+  EXPECT_EQ(ends("failed", 1).outcome, Outcome::kFailed);
+}
+
 TEST_F(Execute, WhatAKilledRunWasWritingIsNoResult) {
   Job slow = job("slow", "mkdir .run.traverse-work; touch .run.traverse-work/map.ply; sleep 60");
   slow.limits.time_s = 0.2;

@@ -41,6 +41,31 @@ TEST(Summary, RanksByRunsThatAreOkAndThenByTheMetric) {
   EXPECT_EQ(variants[1].runs, 2U);
 }
 
+/// The map of a run that does not move is the sharpest.
+TEST(Summary, ARunThatIsLostHasNoFigureAndNoRankAndADegradedOneStandsBelowAnOkOne) {
+  for (const Outcome outcome : {Outcome::kLost, Outcome::kDegraded}) {
+    Results results({made_job("a", "still"), made_job("b", "still"), made_job("a", "moving"),
+                     made_job("b", "moving")});
+    const auto& jobs = results.jobs();
+    results.add(made_completion(jobs[0], {{"mme", -9.17}}, outcome));
+    results.add(made_completion(jobs[1], {{"mme", -4.2}}));
+    results.add(made_completion(jobs[2], {{"mme", -4.07}}));
+    results.add(made_completion(jobs[3], {{"mme", -4.1}}));
+    const auto variants = summarise(results, {}, "mme");
+    EXPECT_EQ(variants[0].variant, "moving") << name_of(outcome);
+    EXPECT_EQ(variants[0].ok, 2U);
+    EXPECT_EQ(variants[1].ok, outcome == Outcome::kLost ? 1U : 2U);
+    EXPECT_NEAR(variants[1].means.at("mme"), outcome == Outcome::kLost ? -4.2 : (-9.17 - 4.2) / 2,
+                1e-12);
+  }
+}
+
+TEST(Summary, ABudgetOfWhatIsBetterWhenItIsMoreIsTheLeast) {
+  const Completion one = made_completion(made_job("a", "p"), {{"registered_share", 0.9}});
+  EXPECT_TRUE(broken_budgets(one, {{"registered_share", 0.8}}).empty());
+  EXPECT_EQ(broken_budgets(one, {{"registered_share", 0.95}}).size(), 1U);
+}
+
 TEST(Summary, AveragesRepeatsBeforeRecordings) {
   const auto variants = summarise(made_results(), {}, kApe);
   EXPECT_NEAR(variants[0].means.at(kApe), (0.4 + (0.2 + 0.4) / 2) / 2, 1e-12);

@@ -16,18 +16,18 @@ namespace traverse::evaluation {
 namespace {
 
 using geometry::Pose3;
-using Poses = std::vector<Pose3>;
+using DrivePoses = std::vector<Pose3>;
 
 /// A straight drive along x, `step_m` from pose to pose.
-Poses straight(std::size_t count, double step_m) {
-  Poses poses;
+DrivePoses straight(std::size_t count, double step_m) {
+  DrivePoses poses;
   for (std::size_t i = 0; i < count; ++i) {
     poses.push_back({Eigen::Matrix3d::Identity(), {step_m * static_cast<double>(i), 0, 0}});
   }
   return poses;
 }
 
-Poses turning_by(Poses poses, double rad_per_pose) {
+DrivePoses turning_by(DrivePoses poses, double rad_per_pose) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     poses[i].rotation = geometry::exp_so3({0, 0, rad_per_pose * static_cast<double>(i)});
   }

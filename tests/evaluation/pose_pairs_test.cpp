@@ -21,29 +21,29 @@ void PrintTo(const IndexPair& pair, std::ostream* stream) {
 namespace {
 
 using geometry::Pose3;
-using Poses = std::vector<Pose3>;
+using LinePoses = std::vector<Pose3>;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 /// Poses on the x axis at `x_m`.
-Poses on_axis(const std::vector<double>& x_m) {
-  Poses poses;
+LinePoses line_on_axis(const std::vector<double>& x_m) {
+  LinePoses poses;
   for (const double x : x_m) poses.push_back({Eigen::Matrix3d::Identity(), {x, 0, 0}});
   return poses;
 }
 
 /// Poses turned about z by `angles_deg`.
-Poses turned(const std::vector<double>& angles_deg) {
-  Poses poses;
+LinePoses turned(const std::vector<double>& angles_deg) {
+  LinePoses poses;
   for (const double angle : angles_deg) {
     poses.push_back({geometry::exp_so3({0, 0, angle * std::numbers::pi / 180}), {0, 0, 0}});
   }
   return poses;
 }
 
-Poses random_walk(unsigned seed, int count) {
+LinePoses random_walk(unsigned seed, int count) {
   testing::RandomMotion random(seed);
-  Poses poses{Pose3()};
+  LinePoses poses{Pose3()};
   for (int i = 1; i < count; ++i) {
     // Stands still now and then, so that several poses share one distance.
     poses.push_back(i % 5 == 0 ? poses.back() : poses.back() * random.pose(0.3, 1));
@@ -54,7 +54,7 @@ Poses random_walk(unsigned seed, int count) {
 constexpr Delta kTwoFrames{2, DeltaUnit::kFrames};
 
 TEST(PosePairs, Frames) {
-  const Poses poses = on_axis({0, 1, 2, 3, 4, 5});
+  const LinePoses poses = line_on_axis({0, 1, 2, 3, 4, 5});
   EXPECT_THAT(select_pairs(poses, kTwoFrames, false),
               ElementsAre(IndexPair{0, 2}, IndexPair{2, 4}));
   EXPECT_THAT(select_pairs(poses, kTwoFrames, true),
@@ -65,24 +65,24 @@ TEST(PosePairs, Frames) {
 
 TEST(PosePairs, ConsecutiveMetresBeginAtTheFirstRecordedIndex) {
   // 2 m are full at 2, 5 and 6: the stretch from index 0 to the first is no pair.
-  const Poses poses = on_axis({0, 1, 2, 2.5, 3, 4.5, 7, 8});
+  const LinePoses poses = line_on_axis({0, 1, 2, 2.5, 3, 4.5, 7, 8});
   EXPECT_THAT(select_pairs(poses, {2, DeltaUnit::kMetres}, false),
               ElementsAre(IndexPair{2, 5}, IndexPair{5, 6}));
   EXPECT_THAT(select_pairs(poses, {5, DeltaUnit::kMetres}, false), IsEmpty());
 }
 
 TEST(PosePairs, AllMetresTakeTheNearestWithinATenth) {
-  EXPECT_THAT(select_pairs(on_axis({0, 1.79, 2.15, 2.2, 9}), {2, DeltaUnit::kMetres}, true),
+  EXPECT_THAT(select_pairs(line_on_axis({0, 1.79, 2.15, 2.2, 9}), {2, DeltaUnit::kMetres}, true),
               ElementsAre(IndexPair{0, 2}));
   // Equally near and standing still: the first.
-  EXPECT_THAT(select_pairs(on_axis({0, 1.875, 2.125}), {2, DeltaUnit::kMetres}, true),
+  EXPECT_THAT(select_pairs(line_on_axis({0, 1.875, 2.125}), {2, DeltaUnit::kMetres}, true),
               ElementsAre(IndexPair{0, 1}));
-  EXPECT_THAT(select_pairs(on_axis({0, 2, 2, 2}), {2, DeltaUnit::kMetres}, true),
+  EXPECT_THAT(select_pairs(line_on_axis({0, 2, 2, 2}), {2, DeltaUnit::kMetres}, true),
               ElementsAre(IndexPair{0, 1}));
 }
 
 TEST(PosePairs, AllMetresAreWhatTheDefinitionSays) {
-  const Poses poses = random_walk(1, 300);
+  const LinePoses poses = random_walk(1, 300);
   const auto path_m = accumulated_distances(poses);
   std::vector<IndexPair> expected;
   for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
@@ -97,7 +97,7 @@ TEST(PosePairs, AllMetresAreWhatTheDefinitionSays) {
 }
 
 TEST(PosePairs, ConsecutiveAnglesBeginAtIndexZero) {
-  const Poses poses = turned({0, 3, 6, 2, 1, -4, -5});
+  const LinePoses poses = turned({0, 3, 6, 2, 1, -4, -5});
   // 6 deg at 2; 4 + 1 + 5 at 5.
   EXPECT_THAT(select_pairs(poses, {5, DeltaUnit::kDegrees}, false),
               ElementsAre(IndexPair{0, 2}, IndexPair{2, 4}, IndexPair{4, 5}));
@@ -113,7 +113,7 @@ TEST(PosePairs, AllAnglesAreDirectOnes) {
 }
 
 TEST(PosePairs, AllAnglesAreWhatTheDefinitionSays) {
-  const Poses poses = random_walk(2, 300);
+  const LinePoses poses = random_walk(2, 300);
   std::vector<IndexPair> expected;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     for (std::size_t j = i + 1; j < poses.size(); ++j) {
@@ -128,7 +128,7 @@ TEST(PosePairs, AllAnglesAreWhatTheDefinitionSays) {
 TEST(PosePairs, OnePoseHasNoPair) {
   for (const auto& [name, unit] : kDeltaUnitNames) {
     for (const bool all_pairs : {false, true}) {
-      EXPECT_THAT(select_pairs(on_axis({0}), {1, unit}, all_pairs), IsEmpty()) << name;
+      EXPECT_THAT(select_pairs(line_on_axis({0}), {1, unit}, all_pairs), IsEmpty()) << name;
       EXPECT_THAT(select_pairs({}, {1, unit}, all_pairs), IsEmpty()) << name;
     }
   }
@@ -144,7 +144,7 @@ TEST(Delta, ReadsNumberAndUnit) {
                            "4rad", "1 m", "1mm", "-1f"}) {
     EXPECT_FALSE(parse_delta(text)) << text;
   }
-  EXPECT_THROW(select_pairs(on_axis({0, 1}), {1.5, DeltaUnit::kFrames}, true),
+  EXPECT_THROW(select_pairs(line_on_axis({0, 1}), {1.5, DeltaUnit::kFrames}, true),
                std::invalid_argument);
 }
 

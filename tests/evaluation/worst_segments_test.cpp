@@ -1,5 +1,6 @@
 #include "traverse/evaluation/worst_segments.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -38,6 +39,25 @@ TEST(WorstSegments, AreTheLargestRelativeErrorsAndDoNotOverlap) {
                   worst.segments[b].last < worst.segments[a].first);
     }
   }
+}
+
+/// One pose of the reference is a metre off, and elsewhere the estimate drifts by 0.4 m in ten
+/// frames: the first makes the largest relative errors, the second the worst stretch.
+TEST(WorstSegments, AreNotMadeByOnePoseThatJitters) {
+  geometry::Trajectory reference;
+  geometry::Trajectory estimate;
+  for (std::size_t i = 0; i < 200; ++i) {
+    const auto k = static_cast<double>(i);
+    geometry::Pose3 pose;
+    pose.translation = {k, 0.01 * k * k, i == 60 ? 1.0 : 0};
+    reference.push_back(geometry::Stamp::from_seconds(0.1 * k), pose);
+    pose.translation.z() = i < 140 ? 0 : 0.04 * std::min(10.0, k - 140);
+    estimate.push_back(geometry::Stamp::from_seconds(0.1 * k), pose);
+  }
+  const WorstSegments worst =
+      worst_segments(evaluate(estimate, reference, run_evaluation_options()), {});
+  EXPECT_GE(worst.segments[0].last, 140U);
+  EXPECT_NEAR(worst.segments[0].value, 0.4, 0.1);
 }
 
 TEST(WorstSegments, WithoutAReferenceResidualsTell) {

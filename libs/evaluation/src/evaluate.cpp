@@ -120,6 +120,7 @@ Evaluation evaluate(const TrajectoryView& estimate, const TrajectoryView& refere
   for (const Relation relation : options.ape_relations) {
     comparison.ape.push_back(ape(aligned_estimate, matched.reference, relation));
   }
+  comparison.split = error_split(aligned_estimate, matched.reference);
   add_rpe(aligned_estimate, matched.reference, options, comparison);
   return {facts, std::move(comparison), std::nullopt};
 }

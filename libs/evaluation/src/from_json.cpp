@@ -177,6 +177,15 @@ KittiDrift kitti_from(const JsonValue& node, std::size_t matches) {
   return kitti;
 }
 
+ErrorPart part_from(const JsonValue& node) {
+  return {node["rmse"].number(), node["mean"].number(), node["max"].number()};
+}
+
+ErrorSplit split_from(const JsonValue& node) {
+  return {part_from(node["along"]), part_from(node["across"]), part_from(node["up"]),
+          node["poses"].count(), node["alternating_m"].optional_number()};
+}
+
 PathFigures path_from(const JsonValue& node) {
   return {node["estimate_m"].number(), node["reference_m"].number(), node["end_error_m"].number(),
           node["end_error_percent"].optional_number(), node["end_rotation_deg"].number()};
@@ -211,6 +220,7 @@ Comparison comparison_from(const JsonValue& root) {
     comparison.ape.push_back(
         {*relation, numbers_of(ape["per_pair"]["value"], matches), statistics_from(ape)});
   }
+  if (root.has("split") && !root["split"].is_null()) comparison.split = split_from(root["split"]);
   const JsonValue rpe = root["rpe"];
   for (std::size_t i = 0; i < rpe.size(); ++i) {
     comparison.rpe.push_back(rpe_from(rpe[i], matches));

@@ -45,7 +45,7 @@ PathFigures path_figures(const Poses& estimate, const Poses& reference) {
   figures.reference_m = path_length(reference);
   figures.end_error_m = relative_error(estimated, travelled, Relation::kTranslation);
   figures.end_rotation_deg = relative_error(estimated, travelled, Relation::kAngleDeg);
-  if (figures.reference_m > 0) {
+  if (figures.reference_m >= kLeastPathForPercent_m) {
     figures.end_error_percent = 100 * figures.end_error_m / figures.reference_m;
   }
   return figures;

@@ -43,6 +43,20 @@ void add_ape(Text& text, const Comparison& comparison, const std::string& alignm
   for (const Ape& ape : comparison.ape) statistics_row(text, ape.relation, ape.statistics);
 }
 
+void add_split(Text& text, const Comparison& comparison) {
+  if (!comparison.split) return;
+  line(text, "\n{}", split_title(comparison));
+  line(text, "  {:26}{:>11}{:>11}{:>11}", "", "rmse", "mean", "max");
+  const auto row = [&](const char* name, const ErrorPart& part) {
+    line(text, "  {:26}{:11.5g}{:11.5g}{:11.5g}", name, part.rmse_m, part.mean_m, part.max_m);
+  };
+  row("along [m]", comparison.split->along);
+  row("across, left [m]", comparison.split->across);
+  row("up [m]", comparison.split->up);
+  const std::string note = alternation_note(comparison);
+  if (!note.empty()) line(text, "  {}", note);
+}
+
 void add_rpe(Text& text, const Comparison& comparison, const std::string& alignment) {
   std::string above;
   for (const Rpe& rpe : comparison.rpe) {
@@ -80,7 +94,7 @@ void add_path(Text& text, const Comparison& comparison) {
   line(text, "\n{}", path_title(comparison));
   line(text, "  {:26}{:11.5g} m", "path of the estimate", path.estimate_m);
   line(text, "  {:26}{:11.5g} m", "path of the reference", path.reference_m);
-  line(text, "  {:26}{:11.5g} m", "end error", path.end_error_m);
+  line(text, "  {:26}{:11.5g} m", "closing error", path.end_error_m);
   if (path.end_error_percent) {
     line(text, "  {:26}{:11.5g} %", "", *path.end_error_percent);
   }
@@ -104,6 +118,7 @@ void add_comparison(Text& text, const Comparison& comparison) {
   line(text, "association  {}", describe(comparison.association));
   line(text, "alignment    {}", alignment);
   add_ape(text, comparison, alignment);
+  add_split(text, comparison);
   add_rpe(text, comparison, alignment);
   if (comparison.kitti) add_kitti(text, *comparison.kitti);
   add_path(text, comparison);

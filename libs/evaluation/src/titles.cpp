@@ -76,6 +76,20 @@ std::string title(const Rpe& rpe, const Comparison& comparison) {
   return text;
 }
 
+std::string split_title(const Comparison& comparison) {
+  return fmt::format("position error along, across and up the path, {}, {}",
+                     describe(comparison.alignment, comparison.association.matches.size()),
+                     counted(comparison.split ? comparison.split->poses : 0, "pair"));
+}
+
+std::string alternation_note(const Comparison& comparison) {
+  if (!comparison.split || !comparison.split->alternates()) return {};
+  return fmt::format(
+      "About {:.2g} m of the {:.2g} m error along the path (rmse) change from frame to frame and "
+      "back: stamps of low resolution or jitter of the reference do that, an estimate hardly.",
+      *comparison.split->alternating_m, comparison.split->along.rmse_m);
+}
+
 std::string title(const KittiDrift& kitti) {
   return fmt::format(
       "KITTI drift, {} frame, no alignment, {} of {} to {} m, one start every {}, {} s per pose",
@@ -85,8 +99,9 @@ std::string title(const KittiDrift& kitti) {
 
 std::string path_title(const Comparison& comparison) {
   return fmt::format(
-      "path over {}, no alignment, end error from the first pair on in % of the reference's path",
-      counted(comparison.association.matches.size(), "pair"));
+      "path over {}, no alignment; closing error: distance of the last poses where the first "
+      "coincide, in % of the reference's path where that is {} m or more",
+      counted(comparison.association.matches.size(), "pair"), kLeastPathForPercent_m);
 }
 
 std::string title(const Consistency& score) {

@@ -136,6 +136,19 @@ Json ape_json(const Comparison& comparison, Document& document) {
   return by_relation;
 }
 
+Json json_of(const ErrorPart& part) {
+  return {{"rmse", part.rmse_m}, {"mean", part.mean_m}, {"max", part.max_m}};
+}
+
+Json split_json(const Comparison& comparison) {
+  if (!comparison.split) return nullptr;
+  const ErrorSplit& split = *comparison.split;
+  return {{"along", json_of(split.along)}, {"across", json_of(split.across)},
+          {"up", json_of(split.up)},       {"unit", "m"},
+          {"poses", split.poses},          {"alternating_m", optional_number(split.alternating_m)},
+          {"how", split_title(comparison)}};
+}
+
 Json rpe_json(const Comparison& comparison, Document& document) {
   Json list = Json::array();
   for (const Rpe& rpe : comparison.rpe) {
@@ -218,6 +231,7 @@ void add_comparison(Json& json, const Comparison& comparison, Document& document
   json["association"] = association_json(comparison, document);
   json["alignment"] = alignment_json(comparison);
   json["ape"] = ape_json(comparison, document);
+  json["split"] = split_json(comparison);
   json["rpe"] = rpe_json(comparison, document);
   json["kitti"] = comparison.kitti ? json_of(*comparison.kitti, document) : Json();
   json["path"] = path_json(comparison);
@@ -226,6 +240,7 @@ void add_comparison(Json& json, const Comparison& comparison, Document& document
 void add_no_comparison(Json& json, const TrajectoryFacts& estimate) {
   for (const char* key : {"reference", "association", "alignment"}) json[key] = nullptr;
   json["ape"] = Json::object();
+  json["split"] = nullptr;
   json["rpe"] = Json::array();
   json["kitti"] = nullptr;
   json["path"] = {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "traverse/statistics/quantile.hpp"
+
 namespace traverse::evaluation {
 
 namespace {
@@ -10,12 +12,21 @@ namespace {
 constexpr std::size_t kSegments = 5;
 constexpr std::size_t kFrames = 10;
 
+/// The median of a value and its two neighbours on each side. One pose of the reference that is
+/// off, or a stamp, makes one value large; a stretch that is bad makes all of them.
+double median_about(std::span<const double> values, std::size_t k) {
+  constexpr std::size_t kBeside = 2;
+  const std::size_t first = k < kBeside ? 0 : k - kBeside;
+  const std::size_t last = std::min(values.size(), k + kBeside + 1);
+  return statistics::median(values.subspan(first, last - first));
+}
+
 std::vector<WorstSegment> by_relative_error(const Comparison& comparison, const Rpe& rpe) {
   const auto& matches = comparison.association.matches;
   std::vector<WorstSegment> all;
   for (std::size_t k = 0; k < rpe.pairs.size(); ++k) {
-    all.push_back(
-        {matches[rpe.pairs[k].from].estimate, matches[rpe.pairs[k].to].estimate, rpe.values[k]});
+    all.push_back({matches[rpe.pairs[k].from].estimate, matches[rpe.pairs[k].to].estimate,
+                   median_about(rpe.values, k)});
   }
   return all;
 }

@@ -103,7 +103,10 @@ LidarEstimator::LidarEstimator(const LidarEstimator& other)
       imu_(other.imu_),
       odometry_(other.odometry_->clone()),
       columns_(other.columns_),
-      latest_(other.latest_) {}
+      latest_(other.latest_),
+      frames_(other.frames_),
+      not_registered_(other.not_registered_),
+      imu_samples_(other.imu_samples_) {}
 
 std::unique_ptr<LidarEstimator> LidarEstimator::copy() const {
   return std::unique_ptr<LidarEstimator>(new LidarEstimator(*this));
@@ -141,6 +144,7 @@ std::vector<PoseFrame> LidarEstimator::process(const sensors::Measurement& measu
 
 void LidarEstimator::observe(const sensors::ImuSample& sample) {
   if (sample.sensor != imu_) return;
+  ++imu_samples_;
   sensors::ImuSample turned = sample;
   turned.angular_rate = T_lidar_imu_.rotation * sample.angular_rate;
   turned.specific_force = T_lidar_imu_.rotation * sample.specific_force;
@@ -153,6 +157,8 @@ std::vector<PoseFrame> LidarEstimator::to_body(std::vector<lidar::Frame> frames)
   latest_ = std::move(frames);
   std::vector<PoseFrame> result;
   for (const lidar::Frame& frame : latest_) {
+    not_registered_ += frames_ > 0 && !frame.health.registered ? 1 : 0;
+    ++frames_;
     PoseFrame pose;
     pose.stamp = frame.stamp;
     pose.T_map_body = sensor_.T_body_sensor * frame.T_map_lidar * sensor_.T_body_sensor.inverse();
@@ -196,6 +202,22 @@ std::string LidarEstimator::points_are() const {
   const std::string elevation =
       correction == 0 ? "" : fmt::format("elevation corrected by {:+g} deg, ", correction);
   return elevation + (odometry_->deskew_note() == "on" ? "deskewed" : "not deskewed");
+}
+
+std::vector<SensorUse> LidarEstimator::sensor_use() const {
+  SensorUse scans{.label = sensor_.label, .kind = sensors::SensorKind::kLidar};
+  scans.used = frames_ - not_registered_;
+  scans.rejected = not_registered_;
+  if (not_registered_ > 0) scans.reason = "could not be registered";
+  if (imu_.empty()) return {std::move(scans)};
+  SensorUse imu{.label = imu_, .kind = sensors::SensorKind::kImu};
+  imu.is_taken = odometry_->uses_imu();
+  if (imu.is_taken) {
+    imu.used = imu_samples_;
+  } else {
+    imu.reason = "the odometry uses no IMU";
+  }
+  return {std::move(scans), std::move(imu)};
 }
 
 std::vector<Decision> LidarEstimator::decisions() const {

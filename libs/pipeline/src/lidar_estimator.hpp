@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -28,6 +29,7 @@ class LidarEstimator final : public Estimator {
                      bool with_classes) const override;
   std::string points_are() const override;
   std::vector<Decision> decisions() const override;
+  std::vector<SensorUse> sensor_use() const override;
   std::vector<optimization::FactorUse> factors() const override { return odometry_->factors(); }
   std::unique_ptr<Estimator> clone() const override;
   std::size_t bytes() const override { return odometry_->bytes(); }
@@ -52,6 +54,9 @@ class LidarEstimator final : public Estimator {
   std::unique_ptr<lidar::Odometry> odometry_;
   std::vector<std::string> columns_;
   std::vector<lidar::Frame> latest_;
+  std::size_t frames_ = 0;
+  std::size_t not_registered_ = 0;
+  std::size_t imu_samples_ = 0;
 };
 
 }  // namespace traverse::pipeline

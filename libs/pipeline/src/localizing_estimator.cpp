@@ -20,7 +20,7 @@ namespace {
 /// T_map_body from x, y, z and yaw.
 geometry::Pose3 start_pose(const std::vector<double>& start) {
   if (start.size() != 4) {
-    throw files::InputError("slam.localize.start", files::Place::whole_file(),
+    throw files::InputError("localize.start", files::Place::whole_file(),
                             "x, y, z in metres and yaw in degrees",
                             fmt::format("{} numbers", start.size()));
   }
@@ -28,6 +28,15 @@ geometry::Pose3 start_pose(const std::vector<double>& start) {
   T_map_body.translation = {start[0], start[1], start[2]};
   T_map_body.rotation = geometry::exp_so3(Eigen::Vector3d(0, 0, start[3] * std::numbers::pi / 180));
   return T_map_body;
+}
+
+const std::string& required(const std::string& map) {
+  if (map.empty()) {
+    throw files::InputError("localize.map", files::Place::whole_file(),
+                            "keyframes.simplemap of a run, as `traverse localize --map RUN` gives",
+                            "none");
+  }
+  return map;
 }
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -49,7 +58,7 @@ LocalizingEstimator::LocalizingEstimator(std::unique_ptr<LidarEstimator> odometr
     : odometry_(std::move(odometry)),
       map_file_(options.map),
       maker_(checks.keyframes, *odometry_->sensor().lidar),
-      localizer_(read_localization_map(options.map), checks, options.search),
+      localizer_(read_localization_map(required(options.map)), checks, options.search),
       columns_(odometry_->columns()) {
   columns_.insert(columns_.end(), {"located", "fits_map", "map_in_common", "map_residual_rms_m",
                                    "map_keyframe", "localize_ms"});

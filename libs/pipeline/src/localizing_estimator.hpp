@@ -15,7 +15,7 @@ namespace traverse::pipeline {
 
 /// The map to follow a recording in.
 struct LocalizationOptions {
-  std::string map;            ///< keyframes.simplemap of a run; empty: no localisation
+  std::string map;            ///< keyframes.simplemap of a run
   std::vector<double> start;  ///< x, y, z [m] and yaw [deg] of the body; empty: search everywhere
   slam::LocalizerOptions search;
 };
@@ -40,6 +40,7 @@ class LocalizingEstimator final : public Estimator {
   }
   std::string points_are() const override { return odometry_->points_are(); }
   std::vector<Decision> decisions() const override;
+  std::vector<SensorUse> sensor_use() const override { return odometry_->sensor_use(); }
   std::vector<optimization::FactorUse> factors() const override { return odometry_->factors(); }
   std::unique_ptr<Estimator> clone() const override;
   std::vector<Eigen::Vector3d> local_map() const override { return odometry_->local_map(); }

@@ -70,6 +70,7 @@ void for_each_value(const NavFrame& frame, const Add& add) {
   add("by_gnss", frame.by_gnss ? 1 : 0);
   add("by_wheels", frame.by_wheels ? 1 : 0);
   add("in_outage", frame.in_outage ? 1 : 0);
+  add("restarted", frame.restarted ? 1 : 0);
   chi2("gnss", frame.gnss);
   chi2("heading", frame.heading);
   chi2("wheels", frame.wheels);
@@ -145,11 +146,14 @@ std::vector<PoseFrame> NavigationEstimator::process(const sensors::Measurement& 
     sensors::ImuSample sample = *imu;
     sample.angular_rate = R_body_imu_ * imu->angular_rate;
     sample.specific_force = R_body_imu_ * imu->specific_force;
+    imu_readings_.waiting.push_back(imu->stamp);
     frames = navigation_.add(sample);
   } else if (const auto* fix = std::get_if<sensors::GnssFix>(&measurement); fix && label == gnss_) {
+    fixes_.waiting.push_back(fix->stamp);
     frames = navigation_.add(*fix);
   } else if (const auto* wheels = std::get_if<sensors::WheelOdometry>(&measurement);
              wheels && label == wheels_) {
+    wheel_readings_.waiting.push_back(wheels->stamp);
     frames = navigation_.add(*wheels);
   }
   milliseconds_ +=
@@ -165,9 +169,36 @@ std::vector<PoseFrame> NavigationEstimator::finish() {
   return frames;
 }
 
+void NavigationEstimator::Readings::finish(geometry::Stamp stamp, std::size_t Readings::*count) {
+  for (; !waiting.empty() && waiting.front() <= stamp; waiting.pop_front()) {
+    if (count != nullptr) ++(this->*count);
+  }
+}
+
+/// Readings that led to a frame were used in it, or rejected with it. A state may take pulses of
+/// several readings, which are then used together.
+void NavigationEstimator::count(const NavFrame& frame) {
+  const geometry::Stamp stamp = frame.state.stamp;
+  const auto finish = [&](Readings& readings, const Innovation& found) {
+    if (found.rows == 0) return;
+    readings.finish(stamp, found.is_rejected ? &Readings::rejected : &Readings::used);
+  };
+  imu_readings_.finish(stamp, frames_ > 0 ? &Readings::used : nullptr);
+  if (frames_ == 0) {  // what came before the first state is not in it
+    fixes_.finish(geometry::Stamp{stamp.nanoseconds - 1}, nullptr);
+    wheel_readings_.finish(geometry::Stamp{stamp.nanoseconds - 1}, nullptr);
+  }
+  finish(wheel_readings_, frame.standing.rows > 0 ? frame.standing : frame.wheels);
+  // A fix is taken alone: those between it and the frame before were not.
+  fixes_.finish(geometry::Stamp{stamp.nanoseconds - 1}, nullptr);
+  finish(fixes_, frame.gnss);
+}
+
 std::vector<PoseFrame> NavigationEstimator::to_body(const std::vector<NavFrame>& frames) {
   std::vector<PoseFrame> result;
   for (const NavFrame& frame : frames) {
+    count(frame);
+    ++frames_;
     PoseFrame out;
     out.stamp = frame.state.stamp;
     out.T_map_body = frame.state.T_map_body() * T_nav_body_;
@@ -177,7 +208,6 @@ std::vector<PoseFrame> NavigationEstimator::to_body(const std::vector<NavFrame>&
     milliseconds_ = 0;
     result.push_back(std::move(out));
   }
-  frames_ += result.size();
   return result;
 }
 
@@ -207,6 +237,37 @@ std::vector<Decision> NavigationEstimator::decisions() const {
                      outage.distance_m, outage.sigma_m)});
   }
   return decisions;
+}
+
+std::vector<SensorUse> NavigationEstimator::sensor_use() const {
+  const auto use = [](const std::string& label, SensorKind kind, const Readings& readings) {
+    SensorUse sensor{.label = label, .kind = kind};
+    sensor.used = readings.used;
+    sensor.rejected = readings.rejected;
+    return sensor;
+  };
+  std::vector<SensorUse> uses{use(imu_, SensorKind::kImu, imu_readings_)};
+  if (!gnss_.empty()) {
+    uses.push_back(use(gnss_, SensorKind::kGnss, fixes_));
+    uses.back().is_taken = options_.gnss.use;
+    uses.back().reason = options_.gnss.use ? events_about("fix") : "switched off (gnss.use)";
+  }
+  if (!wheels_.empty()) {
+    uses.push_back(use(wheels_, SensorKind::kWheels, wheel_readings_));
+    uses.back().is_taken = options_.wheels.use;
+    uses.back().reason = options_.wheels.use ? events_about("wheel") : "switched off (wheels.use)";
+  }
+  return uses;
+}
+
+/// What happened to the readings that a word names, "12 times fix withheld on purpose".
+std::string NavigationEstimator::events_about(const std::string& word) const {
+  std::string text;
+  for (const auto& [what, times] : navigation_.events()) {
+    if (what.find(word) == std::string::npos) continue;
+    text += fmt::format("{}{} times {}", text.empty() ? "" : "; ", times, what);
+  }
+  return text;
 }
 
 std::optional<Eigen::Vector3d> NavigationEstimator::north_map() const {

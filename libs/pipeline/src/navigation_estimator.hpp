@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,6 +28,7 @@ class NavigationEstimator final : public Estimator {
                      bool with_classes) const override;
   std::string points_are() const override { return "none used"; }
   std::vector<Decision> decisions() const override;
+  std::vector<SensorUse> sensor_use() const override;
   std::optional<Eigen::Vector3d> north_map() const override;
   std::vector<optimization::FactorUse> factors() const override;
   std::optional<geodesy::Geodetic> map_origin() const override {
@@ -37,6 +40,18 @@ class NavigationEstimator final : public Estimator {
   }
 
  private:
+  /// Readings that wait for the frame that they are in.
+  struct Readings {
+    std::deque<geometry::Stamp> waiting;
+    std::size_t used = 0;
+    std::size_t rejected = 0;
+
+    /// Those up to `stamp` are through.
+    void finish(geometry::Stamp stamp, std::size_t Readings::*count);
+  };
+
+  void count(const inertial::NavFrame& frame);
+  std::string events_about(const std::string& word) const;
   std::vector<PoseFrame> to_body(const std::vector<inertial::NavFrame>& frames);
 
   inertial::NavigationOptions options_;
@@ -47,6 +62,7 @@ class NavigationEstimator final : public Estimator {
   Eigen::Matrix3d R_body_imu_;
   geometry::Pose3 T_nav_body_;  ///< the filter's body has the rig's axes, at the IMU's place
   inertial::Navigation navigation_;
+  Readings imu_readings_, fixes_, wheel_readings_;
   std::size_t frames_ = 0;
   double milliseconds_ = 0;  ///< since the last frame
 };

@@ -125,10 +125,18 @@ void require_provenance(const JsonValue& record) {
 
 }  // namespace
 
+bool has_health(const JsonValue& record) {
+  return record.has("health") && !record["health"].is_null();
+}
+
 void require_run_record(const JsonValue& record) {
   const std::string status = record["status"].text();
-  if (status != "ok" && status != "failed" && status != "interrupted") {
-    throw record["status"].error("ok, failed or interrupted");
+  const bool is_assessed = status == "ok" || status == "degraded" || status == "lost";
+  if (!is_assessed && status != "failed" && status != "interrupted") {
+    throw record["status"].error("ok, degraded, lost, failed or interrupted");
+  }
+  if (is_assessed && has_health(record) && record["health"]["verdict"].text() != status) {
+    throw record["status"].error("the verdict of health, " + record["health"]["verdict"].text());
   }
   require_texts(record, {"reason", "pipeline", "pipeline_description", "started_utc"});
   require_counts(record);
@@ -137,6 +145,9 @@ void require_run_record(const JsonValue& record) {
     require_texts(decision, {"name", "value"});
   });
   if (!record["reference"].is_null()) require_texts(record["reference"], {"file", "description"});
+  if (record.has("refused_reference") && !record["refused_reference"].is_null()) {
+    require_texts(record, {"refused_reference"});
+  }
   if (!record["evaluation_error"].is_null()) require_texts(record, {"evaluation_error"});
   require_configuration(record["configuration"]);
   require_recording(record["recording"]);

@@ -8,4 +8,7 @@ namespace traverse::pipeline {
 /// can have. \throws files::InputError naming the file and the key
 void require_run_record(const files::JsonValue& record);
 
+/// Whether the run was assessed: older ones were not, and those without a frame cannot be.
+bool has_health(const files::JsonValue& record);
+
 }  // namespace traverse::pipeline

@@ -16,12 +16,16 @@
 #include "traverse/voxel_map/voxel_map_odometry.hpp"
 
 #include "lidar_estimator.hpp"
+#include "localizing_estimator.hpp"
 #include "navigation_estimator.hpp"
 #include "slam_estimator.hpp"
 
 namespace traverse::pipeline {
 
 namespace {
+
+/// Before the name of an odometry: the estimator that follows it in a map.
+const std::string kLocalize = "localize_";
 
 struct ListedSettings {
   std::vector<config::Setting> settings;
@@ -65,30 +69,55 @@ void bind(config::Binder& b, LidarSettings& s) {
   b.group("slam", "loop closure over the odometry", [&](config::Binder& g) { bind(g, s.slam); });
 }
 
-std::unique_ptr<Estimator> make_lidar(const LidarSettings& settings,
-                                      const dataset::RecordingInfo& recording, int threads) {
-  const auto make = [&](const sensors::LidarProfile& profile, bool motion_compensated) {
-    return settings.odometry->make(profile, motion_compensated, threads);
-  };
-  auto odometry = std::make_unique<LidarEstimator>(make, recording);
-  const SlamEstimatorOptions& slam = settings.slam;
-  if (!slam.localization.map.empty()) {
-    return std::make_unique<LocalizingEstimator>(std::move(odometry), slam.localization, slam.slam);
-  }
-  if (!slam.use) return odometry;
-  return std::make_unique<SlamEstimator>(std::move(odometry), recording, slam);
+/// Those of an odometry that is followed in a map; the same presets serve, whose checks of places
+/// (slam) hold for it too.
+struct LocalizingSettings {
+  LidarSettings lidar;
+  LocalizationOptions localization;
+};
+
+void bind(config::Binder& b, LocalizingSettings& s) {
+  bind(b, s.lidar);
+  b.group("localize", "the map that the recording is followed in",
+          [&](config::Binder& g) { bind(g, s.localization); });
 }
 
-/// An estimator of the lidar kind: an odometry of some kind, and what goes with any of them.
+std::unique_ptr<LidarEstimator> make_odometry(const OdometrySettings& settings,
+                                              const dataset::RecordingInfo& recording,
+                                              int threads) {
+  const auto make = [&](const sensors::LidarProfile& profile, bool motion_compensated) {
+    return settings.make(profile, motion_compensated, threads);
+  };
+  return std::make_unique<LidarEstimator>(make, recording);
+}
+
+/// An odometry of some kind, with or without loops over it.
 EstimatorKind lidar_kind(const OdometryKind& odometry) {
   return {[odometry](const config::Document& document) {
             return list_settings(document, LidarSettings{odometry(), {}});
           },
           [odometry](const config::Document& document, const dataset::RecordingInfo& recording,
-                     int threads) {
+                     int threads) -> std::unique_ptr<Estimator> {
             LidarSettings settings{odometry(), {}};
             read_preset(document, settings);
-            return make_lidar(settings, recording, threads);
+            auto estimator = make_odometry(*settings.odometry, recording, threads);
+            if (!settings.slam.use) return estimator;
+            return std::make_unique<SlamEstimator>(std::move(estimator), recording, settings.slam);
+          }};
+}
+
+/// An odometry of some kind, followed in a map.
+EstimatorKind localizing_kind(const OdometryKind& odometry) {
+  return {[odometry](const config::Document& document) {
+            return list_settings(document, LocalizingSettings{{odometry(), {}}, {}});
+          },
+          [odometry](const config::Document& document, const dataset::RecordingInfo& recording,
+                     int threads) {
+            LocalizingSettings settings{{odometry(), {}}, {}};
+            read_preset(document, settings);
+            return std::make_unique<LocalizingEstimator>(
+                make_odometry(*settings.lidar.odometry, recording, threads), settings.localization,
+                settings.lidar.slam.slam);
           }};
 }
 
@@ -102,18 +131,29 @@ EstimatorKind navigation_kind() {
           }};
 }
 
+using EstimatorKinds = std::map<std::string, EstimatorKind, std::less<>>;
+
+/// An odometry makes two kinds: itself, and itself followed in a map. \returns false if there is
+/// one of either name
+bool add_odometry(const std::string& name, const OdometryKind& odometry, EstimatorKinds& kinds) {
+  return kinds.emplace(name, lidar_kind(odometry)).second &&
+         kinds.emplace(kLocalize + name, localizing_kind(odometry)).second;
+}
+
 /// Those that Traverse has, and those that were registered.
-std::map<std::string, EstimatorKind, std::less<>>& estimator_kinds() {
-  static std::map<std::string, EstimatorKind, std::less<>> all{
-      {"gins_two_frame", navigation_kind<inertial::TwoFrameOptions>()},
-      {"gins_window", navigation_kind<inertial::SlidingWindowOptions>()},
-      {"scan_to_map",
-       lidar_kind(odometry_kind<loam::ScanToMapOdometry, loam::ScanToMapOdometryOptions>())},
-      {"two_stage",
-       lidar_kind(odometry_kind<loam::TwoStageOdometry, loam::TwoStageOdometryOptions>())},
-      {"voxel_map",
-       lidar_kind(
-           odometry_kind<voxel_map::VoxelMapOdometry, voxel_map::VoxelMapOdometryOptions>())}};
+EstimatorKinds& estimator_kinds() {
+  static EstimatorKinds all = [] {
+    EstimatorKinds kinds{{"gins_two_frame", navigation_kind<inertial::TwoFrameOptions>()},
+                         {"gins_window", navigation_kind<inertial::SlidingWindowOptions>()}};
+    add_odometry("scan_to_map",
+                 odometry_kind<loam::ScanToMapOdometry, loam::ScanToMapOdometryOptions>(), kinds);
+    add_odometry("two_stage",
+                 odometry_kind<loam::TwoStageOdometry, loam::TwoStageOdometryOptions>(), kinds);
+    add_odometry("voxel_map",
+                 odometry_kind<voxel_map::VoxelMapOdometry, voxel_map::VoxelMapOdometryOptions>(),
+                 kinds);
+    return kinds;
+  }();
   return all;
 }
 
@@ -130,9 +170,24 @@ const EstimatorKind& find_kind(const Preset& preset) {
 }  // namespace
 
 void register_odometry(const std::string& name, const OdometryKind& kind) {
-  if (!estimator_kinds().emplace(name, lidar_kind(kind)).second) {
+  if (!add_odometry(name, kind, estimator_kinds())) {
     throw std::invalid_argument("there is an estimator of the name " + files::in_quotes(name));
   }
+}
+
+PresetRequest localizing_in(const std::filesystem::path& map, const std::vector<double>& start,
+                            PresetRequest request, const std::filesystem::path& share_folder) {
+  const Preset preset = load_preset(request, share_folder);
+  const std::string odometry = preset.resolved.scalar("estimator").value_or("");
+  if (estimator_kinds().find(kLocalize + odometry) == estimator_kinds().end()) {
+    throw files::InputError(preset.file, files::Place::key("estimator"),
+                            "a lidar odometry, which can be followed in a map",
+                            files::in_quotes(odometry));
+  }
+  request.assignments.push_back("estimator=" + kLocalize + odometry);
+  request.assignments.push_back("localize.map=" + config::to_text(map.string()));
+  request.assignments.push_back(fmt::format("localize.start=[{}]", fmt::join(start, ", ")));
+  return request;
 }
 
 std::vector<ResolvedSetting> resolve_settings(const Preset& preset) {
@@ -153,6 +208,7 @@ std::vector<std::string> settings_notes(const Preset& preset) {
 Pipeline make_pipeline(const Preset& preset, const dataset::RecordingInfo& recording, int threads) {
   Pipeline pipeline;
   pipeline.name = preset.name;
+  pipeline.estimator_kind = preset.resolved.scalar("estimator").value_or("");
   pipeline.description = preset.resolved.scalar("description").value_or("");
   pipeline.settings = resolve_settings(preset);
   pipeline.estimator = find_kind(preset).make(preset.resolved, recording, threads);

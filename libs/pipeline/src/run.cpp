@@ -27,6 +27,7 @@
 #include "traverse/slam/keyframe_file.hpp"
 #include "traverse/slam/slam.hpp"
 
+#include "reading_count.hpp"
 #include "run_results.hpp"
 #include "waiting_scans.hpp"
 
@@ -65,7 +66,8 @@ class Stopped : public std::exception {};
 
 /// Reads, estimates and collects, to the end or as far as it goes.
 void estimate_all(dataset::Source& source, Estimator& estimator, const RunOptions& options,
-                  const RunObserver& observer, RunResults& results, Steps& attempt) {
+                  const RunObserver& observer, RunResults& results, ReadingCount& readings,
+                  Steps& attempt) {
   WaitingScans waiting;
   std::size_t done = 0;
   const auto collect = [&](const std::vector<PoseFrame>& frames) {
@@ -79,6 +81,7 @@ void estimate_all(dataset::Source& source, Estimator& estimator, const RunOption
       dataset::for_each_in_slice(source, {"", options.first, options.last},
                                  [&](const sensors::Measurement& measurement) {
                                    if (is_stopped(observer)) throw Stopped();
+                                   readings.add(measurement);
                                    waiting.add(measurement);
                                    collect(estimator.process(measurement));
                                  });
@@ -125,23 +128,60 @@ void write_evaluation(const std::filesystem::path& file, const evaluation::Evalu
   output.commit();
 }
 
-/// Accuracy against the reference if there is one, and the sharpness of the map in any case; how
+/// What the estimator tells of its sensors, with what the recording gave of each; those that it
+/// does not name it does not use.
+std::vector<SensorUse> sensor_use(const Estimator& estimator, const sensors::Rig& rig,
+                                  const ReadingCount& readings) {
+  std::vector<SensorUse> uses = estimator.sensor_use();
+  for (SensorUse& use : uses) use.read = readings.of(use.label);
+  for (const sensors::MountedSensor& sensor : rig.sensors) {
+    const bool is_named = std::any_of(
+        uses.begin(), uses.end(), [&](const SensorUse& use) { return use.label == sensor.label; });
+    if (is_named) continue;
+    SensorUse use{.label = sensor.label, .kind = sensor.kind};
+    use.is_taken = false;
+    use.read = readings.of(sensor.label);
+    use.reason = "this estimator takes none of it";
+    uses.push_back(std::move(use));
+  }
+  return uses;
+}
+
+RunHealth assess_run(const dataset::Source& source, const Estimator& estimator,
+                     const RunResults& results, const ReadingCount& readings,
+                     const evaluation::Evaluation& evaluation) {
+  HealthEvidence evidence{.frames = results.frames(), .T_map_body = results.trajectory()};
+  if (source.reference()) evidence.reference = &source.reference()->T_map_body;
+  evidence.evaluation = &evaluation;
+  evidence.sensors = sensor_use(estimator, source.info().rig, readings);
+  evidence.troubles = estimator.troubles();
+  evidence.skipped_records = source.skipped().total();
+  evidence.read_records = readings.total();
+  evidence.recording_first = readings.first();
+  evidence.recording_last = readings.last();
+  return assess(evidence);
+}
+
+/// Accuracy against the reference if there is one, and from it all how far the run can be believed;
+/// the sharpness of the map, unless it can not: of points that nothing moves no map is sharper. How
 /// the worst frames were registered; accuracy of odometry alone if loops were closed over it.
-void evaluate_run(const dataset::Source& source, RunResults& results, const RunFolder& folder,
-                  RunRecord& record) {
+void evaluate_run(const dataset::Source& source, const Estimator& estimator, RunResults& results,
+                  const ReadingCount& readings, const RunFolder& folder, RunRecord& record) {
   evaluation::Evaluation evaluation = evaluate_trajectory(source, results.trajectory(), record);
   if (!record.north_map && evaluation.comparison && source.reference()->north_map) {
     record.north_map = evaluation.comparison->alignment.T_reference_estimate.rotation.transpose() *
                        *source.reference()->north_map;
   }
-  evaluation.consistency = results.consistency();
+  record.health = assess_run(source, estimator, results, readings, evaluation);
+  const bool is_believable = record.health->verdict != Health::kLost;
+  if (is_believable) evaluation.consistency = results.consistency();
   write_evaluation(folder.evaluation(), evaluation);
   const dataset::PointCloud worst_frames = results.worst_frames(
       evaluation::worst_segments(evaluation, results.frames().column("residual_rms_m")));
   if (worst_frames.size() > 0) dataset::write_ply(folder.worst_frames(), worst_frames);
   if (!results.odometry()) return;
   evaluation = evaluate_trajectory(source, *results.odometry(), record);
-  evaluation.consistency = results.odometry_consistency();
+  if (is_believable) evaluation.consistency = results.odometry_consistency();
   write_evaluation(folder.odometry_evaluation(), evaluation);
 }
 
@@ -202,6 +242,7 @@ RunRecord begin_record(const dataset::Source& source, const Pipeline& pipeline,
   record.command = options.command;
   record.pipeline = pipeline.name;
   record.pipeline_description = pipeline.description;
+  record.estimator_kind = pipeline.estimator_kind;
   record.settings = pipeline.settings;
   record.threads = options.threads;
   record.recording = source.info();
@@ -216,6 +257,19 @@ RunRecord begin_record(const dataset::Source& source, const Pipeline& pipeline,
   return record;
 }
 
+/// Of a run that came to its end.
+RunStatus status_by(const std::optional<RunHealth>& health) {
+  switch (health ? health->verdict : Health::kOk) {
+    case Health::kOk:
+      return RunStatus::kOk;
+    case Health::kDegraded:
+      return RunStatus::kDegraded;
+    case Health::kLost:
+      return RunStatus::kLost;
+  }
+  return RunStatus::kLost;
+}
+
 }  // namespace
 
 RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& folder,
@@ -226,9 +280,10 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
   folder.prepare();
   Steps attempt;
   std::optional<RunResults> results;
+  ReadingCount readings;
   estimator.spill_to(folder.path);
   attempt([&] { results.emplace(estimator, source.info(), options, folder); });
-  if (results) estimate_all(source, estimator, options, observer, *results, attempt);
+  if (results) estimate_all(source, estimator, options, observer, *results, readings, attempt);
   bool stopped = is_stopped(observer);
   attempt([&] {
     record.decisions = estimator.decisions();  // some are made on the way
@@ -243,7 +298,7 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
     // Without the poses of odometry beside them there was no way to learn from loops.
     if (results->odometry()) attempt([&] { write_slam(estimator, folder); });
     observer.stage("evaluation");
-    attempt([&] { evaluate_run(source, *results, folder, record); });
+    attempt([&] { evaluate_run(source, estimator, *results, readings, folder, record); });
     attempt([&] { check_jacobians(estimator, folder); });
     stopped = is_stopped(observer);
     if (options.hash_recording && !stopped && !attempt.has_failed()) {
@@ -263,9 +318,12 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
     record.status = RunStatus::kInterrupted;
     record.reason =
         has_frames ? "stopped by the user" : "stopped by the user before the first frame";
-  } else {
-    record.status = attempt.has_failed() ? RunStatus::kFailed : RunStatus::kOk;
+  } else if (attempt.has_failed()) {
+    record.status = RunStatus::kFailed;
     record.reason = attempt.reason();
+  } else {
+    record.status = status_by(record.health);
+    if (record.health) record.reason = record.health->summary();
   }
   record.recording = source.info();  // a rawlog's rig is known only after reading
   record.skipped = source.skipped();

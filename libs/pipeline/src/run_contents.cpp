@@ -17,6 +17,7 @@
 #include "next_step.hpp"
 #include "points_check.hpp"
 #include "record_check.hpp"
+#include "run_health_json.hpp"
 
 namespace traverse::pipeline {
 
@@ -118,6 +119,22 @@ void read_figure_files(RunContents& run) {
   require_loops(run);
 }
 
+/// The assessment of run.json; of a folder from before there were any, by what was read of it.
+RunHealth health_of(const RunContents& run) {
+  const auto document = files::JsonDocument::parse(run.record_json, run.folder.record());
+  const files::JsonValue record = document.root();
+  if (has_health(record)) return health_from_json(record["health"]);
+  HealthEvidence evidence{.frames = run.frames, .T_map_body = run.estimate};
+  if (run.reference) evidence.reference = &*run.reference;
+  if (run.evaluation.comparison) evidence.evaluation = &run.evaluation;
+  const files::JsonValue skipped = record["frames"]["skipped"];
+  for (const std::string& reason : skipped.keys()) {
+    evidence.skipped_records += skipped[reason].count();
+  }
+  evidence.read_records = run.frames.rows().size();
+  return assess(evidence);
+}
+
 /// The cloud of the file, if there is one, with x, y and z.
 std::optional<dataset::PointCloud> read_points(const fs::path& file) {
   if (!fs::exists(file)) return std::nullopt;
@@ -174,6 +191,7 @@ RunContents read_run(const RunFolder& folder, RunPart part) {
       run.reference = read_path(folder.reference());
     }
     if (part >= RunPart::kFigures) read_figure_files(run);
+    run.health = health_of(run);
     if (part >= RunPart::kAll) read_other_files(run);
     return run;
   });

@@ -14,6 +14,8 @@
 #include "traverse/pipeline/run_folder.hpp"
 #include "traverse/statistics/quantile.hpp"
 
+#include "run_health_json.hpp"
+
 namespace traverse::pipeline {
 
 namespace {
@@ -24,6 +26,10 @@ std::string_view name_of(RunStatus status) {
   switch (status) {
     case RunStatus::kOk:
       return "ok";
+    case RunStatus::kDegraded:
+      return "degraded";
+    case RunStatus::kLost:
+      return "lost";
     case RunStatus::kFailed:
       return "failed";
     case RunStatus::kInterrupted:
@@ -127,8 +133,10 @@ std::string configuration_sha256(const std::vector<ResolvedSetting>& settings) {
 std::string to_json(const RunRecord& record, const BuildInfo& build, const HostInfo& host) {
   Json json{{"status", name_of(record.status)},
             {"reason", record.reason},
+            {"health", record.health ? to_json(*record.health) : Json(nullptr)},
             {"pipeline", record.pipeline},
             {"pipeline_description", record.pipeline_description},
+            {"estimator", record.estimator_kind},
             {"frames",
              {{"read", record.frames_read},
               {"used", record.frames_used},
@@ -160,6 +168,9 @@ std::string to_json(const RunRecord& record, const BuildInfo& build, const HostI
     json["reference"] = {{"file", *record.reference_file},
                          {"description", record.reference_description}};
   }
+  json["refused_reference"] = record.recording.refused_reference.empty()
+                                  ? Json(nullptr)
+                                  : Json(record.recording.refused_reference);
   json["evaluation_error"] =
       record.evaluation_error.empty() ? Json(nullptr) : Json(record.evaluation_error);
   json["configuration"] = {{"sha256", configuration_sha256(record.settings)},

@@ -39,8 +39,6 @@ void bind(config::Binder& b, SlamEstimatorOptions& o) {
     g.flag("use", o.gravity.use, "constrain roll and pitch by gravity, where there is an IMU");
     bind(g, o.gravity.finder);
   });
-  b.group("localize", "localize in a given map instead",
-          [&](config::Binder& g) { bind(g, o.localization); });
   bind(b, o.slam);
 }
 
@@ -59,8 +57,13 @@ SlamEstimator::SlamEstimator(std::unique_ptr<LidarEstimator> odometry,
                      odometry_->sensor().T_body_sensor.inverse() * imu->T_body_sensor);
   }
   const auto* receiver = recording.rig.first(sensors::SensorKind::kGnss);
-  if (!gnss_.use || receiver == nullptr) return;
+  if (receiver == nullptr) return;
+  if (!gnss_.use) {
+    unused_receiver_ = receiver->label;
+    return;
+  }
   if (receiver->label == recording.reference_receiver) {
+    unused_receiver_ = receiver->label;
     gnss_note_ = "not used: the reference is made of them";
     return;
   }
@@ -72,12 +75,14 @@ SlamEstimator::SlamEstimator(std::unique_ptr<LidarEstimator> odometry,
 SlamEstimator::SlamEstimator(const SlamEstimator& other)
     : gnss_(other.gnss_),
       receiver_(other.receiver_),
+      unused_receiver_(other.unused_receiver_),
       gnss_note_(other.gnss_note_),
       antenna_lidar_(other.antenna_lidar_),
       plane_(other.plane_),
       fixes_(other.fixes_),
       last_frame_(other.last_frame_),
       imu_(other.imu_),
+      imu_samples_(other.imu_samples_),
       gravity_(other.gravity_),
       odometry_(other.odometry_->copy()),
       slam_(other.slam_),
@@ -91,7 +96,10 @@ std::unique_ptr<Estimator> SlamEstimator::clone() const {
 std::vector<PoseFrame> SlamEstimator::process(const sensors::Measurement& measurement) {
   if (const auto* fix = std::get_if<sensors::GnssFix>(&measurement)) take(*fix);
   const auto* imu = std::get_if<sensors::ImuSample>(&measurement);
-  if (imu != nullptr && gravity_ && imu->sensor == imu_) gravity_->observe(*imu);
+  if (imu != nullptr && gravity_ && imu->sensor == imu_) {
+    gravity_->observe(*imu);
+    ++imu_samples_;
+  }
   const auto* scan = std::get_if<std::shared_ptr<const sensors::LidarScan>>(&measurement);
   if (scan != nullptr && (*scan)->sensor == odometry_->sensor().label) waiting_.push_back(*scan);
   return close_loops(odometry_->process(measurement));
@@ -216,6 +224,42 @@ std::vector<Decision> SlamEstimator::decisions() const {
                                   slam_.graph().fixes().size())});
   }
   return decisions;
+}
+
+std::vector<SensorUse> SlamEstimator::sensor_use() const {
+  std::vector<SensorUse> uses = odometry_->sensor_use();
+  if (gravity_) {
+    const auto imu = std::find_if(uses.begin(), uses.end(),
+                                  [&](const SensorUse& use) { return use.label == imu_; });
+    if (imu != uses.end() && !slam_.graph().levels().empty()) {
+      imu->is_taken = true;
+      imu->used = imu_samples_;
+      imu->reason = "for the direction of up";
+    }
+  }
+  if (!unused_receiver_.empty()) {
+    SensorUse fixes{.label = unused_receiver_, .kind = sensors::SensorKind::kGnss};
+    fixes.is_taken = false;
+    fixes.reason = gnss_note_.empty() ? "switched off (slam.gnss.use)" : gnss_note_;
+    uses.push_back(std::move(fixes));
+  }
+  if (!receiver_.empty()) {
+    SensorUse fixes{.label = receiver_, .kind = sensors::SensorKind::kGnss};
+    for (const pose_graph::Fix& fix : slam_.graph().fixes()) {
+      ++(fix.is_rejected() ? fixes.rejected : fixes.used);
+    }
+    fixes.reason = "those after a keyframe hold the map";
+    uses.push_back(std::move(fixes));
+  }
+  return uses;
+}
+
+std::vector<HealthReason> SlamEstimator::troubles() const {
+  if (slam_.failure().empty()) return {};
+  return {
+      {Health::kDegraded, "pose_graph",
+       fmt::format("The pose graph could not be solved, its poses are those of {}: {}",
+                   slam_.is_corrected() ? "the solution before" : "odometry", slam_.failure())}};
 }
 
 std::vector<optimization::FactorUse> SlamEstimator::factors() const {

@@ -12,7 +12,6 @@
 #include "traverse/slam/slam.hpp"
 
 #include "lidar_estimator.hpp"
-#include "localizing_estimator.hpp"
 
 namespace traverse::pipeline {
 
@@ -32,7 +31,6 @@ struct SlamEstimatorOptions {
   bool use = false;  ///< off: odometry alone
   SlamGnssOptions gnss;
   SlamGravityOptions gravity;
-  LocalizationOptions localization;  ///< with a map: no map is built, it is followed
   slam::SlamOptions slam;
 };
 void bind(config::Binder& binder, SlamEstimatorOptions& options);
@@ -55,6 +53,8 @@ class SlamEstimator final : public Estimator {
   }
   std::string points_are() const override { return odometry_->points_are(); }
   std::vector<Decision> decisions() const override;
+  std::vector<SensorUse> sensor_use() const override;
+  std::vector<HealthReason> troubles() const override;
   std::vector<optimization::FactorUse> factors() const override;
   std::optional<SlamMap> slam_map() const override {
     std::optional<geodesy::Geodetic> origin;
@@ -77,14 +77,16 @@ class SlamEstimator final : public Estimator {
   std::string gravity_note() const;
 
   SlamGnssOptions gnss_;
-  std::string receiver_;   ///< label; empty: no fixes
-  std::string gnss_note_;  ///< why fixes are not used although there are some
+  std::string receiver_;         ///< label; empty: no fixes
+  std::string unused_receiver_;  ///< label of one whose fixes are not used
+  std::string gnss_note_;        ///< why fixes are not used although there are some
   Eigen::Vector3d antenna_lidar_ = Eigen::Vector3d::Zero();
   std::optional<geodesy::LocalTangentPlane> plane_;  ///< at the first fix
   std::deque<sensors::GnssFix> fixes_;               ///< that wait for the frame after them
   std::optional<lidar::Frame> last_frame_;
 
-  std::string imu_;                             ///< label
+  std::string imu_;  ///< label
+  std::size_t imu_samples_ = 0;
   std::optional<slam::GravityFinder> gravity_;  ///< nothing: up is not looked for
 
   std::unique_ptr<LidarEstimator> odometry_;

@@ -3,6 +3,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "traverse/files/input_error.hpp"
 
 #include "frame_sensor.hpp"
@@ -74,7 +76,9 @@ pipeline::Pipeline Recording::make_pipeline(const pipeline::PresetRequest& reque
     return pipeline::make_pipeline(preset, info_, threads);
   }
   pipeline = pipeline_of_run(*run_, threads);
-  pipeline.name += " (as run)";
+  pipeline.name += health()->verdict == pipeline::Health::kOk
+                       ? " (as run)"
+                       : fmt::format(" (as run, {})", name_of(health()->verdict));
   pipeline.estimator = make_run_estimator(*run_->contents, std::move(pipeline.estimator));
   return pipeline;
 }

@@ -51,6 +51,12 @@ class RunEstimator final : public pipeline::Estimator {
   std::shared_ptr<const Estimator> estimator_;
 };
 
+/// What is replayed of a run that was followed in a map are its poses; scans are corrected as its
+/// odometry does it, for which the map need not be there.
+bool is_of_localization(const std::string& setting) {
+  return setting.starts_with("localize.") || setting.starts_with("slam.localize.");
+}
+
 /// The twist that leads from each frame to the next, which scans were deskewed with but for the
 /// last digits: the run folder does not keep it.
 void fill_velocities(std::vector<PoseFrame>& frames) {
@@ -77,7 +83,7 @@ RunFacts run_facts(const pipeline::RunContents& run) {
   const files::JsonValue settings = record["configuration"]["settings"];
   for (std::size_t i = 0; i < settings.size(); ++i) {
     const files::JsonValue setting = settings[i];
-    if (!setting["changed"].boolean()) continue;
+    if (!setting["changed"].boolean() || is_of_localization(setting["key"].text())) continue;
     facts.preset.assignments.push_back(setting["key"].text() + "=" + setting["value"].json_text());
   }
   return facts;

@@ -20,6 +20,7 @@
 #include "plan/program_id.hpp"
 #include "plan/recordings.hpp"
 #include "results/baseline.hpp"
+#include "results/lead.hpp"
 #include "results/report.hpp"
 #include "results/summary.hpp"
 #include "results/tables.hpp"
@@ -59,7 +60,8 @@ class ResultWriter {
       files::write_text(folder_.tables(), tables_markdown(plan_, tables, made()));
     }
     files::write_text(folder_.report(),
-                      batch_page({plan_, results_, variants, baseline, tables, options_.command},
+                      batch_page({plan_, results_, variants, baseline, tables,
+                                   find_lead(plan_, results_, variants, folder_), options_.command},
                                  options_.templates));
     regressed_ = baseline ? count_regressions(*baseline) : 0;
     next_ = Clock::now() +
@@ -170,7 +172,7 @@ BatchEnd run_batch(Plan plan, const BatchFolder& folder, const BatchOptions& opt
   Results results(make_jobs(plan, digests, program, options.share));
   write_jobs(folder.jobs(), results.jobs());
   results.load(folder, [&](const Completion& completion) {
-    return options.retry_failed && completion.outcome != Outcome::kOk;
+    return options.retry_failed && !is_usable(completion.outcome);
   });
   const std::vector<Job> jobs =
       of_shard(results.pending(), distinct(results.jobs()), options.shard);

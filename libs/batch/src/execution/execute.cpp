@@ -112,7 +112,8 @@ bool was_killed(const ProcessEnd& end, const RunStatus& status, bool memory_ran_
          status.status == "interrupted";
 }
 
-void judge(const Job& job, const ProcessEnd& end, bool memory_ran_out, Completion& completion) {
+void judge(const Job& job, const ProcessEnd& end, const RunStatus& status, bool memory_ran_out,
+           Completion& completion) {
   const std::string message = message_of(completion.last_lines);
   if (end.cause == Cause::kTimeLimit) {
     completion.outcome = Outcome::kTimedOut;
@@ -130,8 +131,11 @@ void judge(const Job& job, const ProcessEnd& end, bool memory_ran_out, Completio
       completion.reason += fmt::format(", {} attempts", completion.attempts);
     }
   } else if (end.exit_status != 0) {
-    completion.outcome = Outcome::kFailed;
-    completion.reason = message;
+    completion.outcome = status.status == "lost" ? Outcome::kLost : Outcome::kFailed;
+    completion.reason = status.status == "lost" ? status.reason : message;
+  } else if (status.status == "degraded") {
+    completion.outcome = Outcome::kDegraded;
+    completion.reason = status.reason;
   } else {
     completion.outcome = Outcome::kOk;
   }
@@ -195,8 +199,8 @@ Completion finish(const fs::path& work, const Job& job, const ProcessEnd& end, b
   completion.peak_memory_mb = end.peak_memory_mb;
   take_out_of_its_folder(work);
   completion.last_lines = last_lines(work / "log.txt");
-  judge(job, end, memory_ran_out, completion);
-  if (completion.outcome == Outcome::kOk) completion.last_lines.clear();
+  judge(job, end, status_of(work), memory_ran_out, completion);
+  if (is_usable(completion.outcome)) completion.last_lines.clear();
   add_results(work, completion);
   files::write_text(work / "result.json", to_json(completion));
   return publish(work, job, completion, folder);

@@ -1,6 +1,7 @@
 #include "traverse/batch/slurm.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -37,9 +38,17 @@ constexpr std::chrono::seconds kLastResults{5};
 constexpr double kMargin_s = 60;
 constexpr double kMargin_mb = 200;
 
+/// A controller that is busy or changes over is back within a minute or so.
+const Waits kForSubmission{std::chrono::seconds(1),  std::chrono::seconds(2),
+                           std::chrono::seconds(4),  std::chrono::seconds(8),
+                           std::chrono::seconds(16), std::chrono::seconds(32)};
+/// What it knows is not needed for certain.
+const Waits kForQuestion{std::chrono::seconds(1), std::chrono::seconds(2)};
+
 /// The largest index of an array is below this.
-std::size_t largest_array(const fs::path& scratch) {
-  std::istringstream lines(command_output({"scontrol", "show", "config"}, scratch));
+std::size_t largest_array(const fs::path& scratch, const std::atomic<bool>& stop) {
+  std::istringstream lines(
+      patient_output({"scontrol", "show", "config"}, scratch, kForSubmission, stop));
   for (std::string line; std::getline(lines, line);) {
     if (!line.starts_with("MaxArraySize")) continue;
     const auto words = files::split_words(line);
@@ -47,6 +56,17 @@ std::size_t largest_array(const fs::path& scratch) {
     if (size && *size > 0) return static_cast<std::size_t>(*size);
   }
   return 1001;  // Slurm's own default
+}
+
+SlurmQueue queue_of(const BatchFolder& folder, const Waits& waits, const std::atomic<bool>& stop) {
+  std::istringstream lines(
+      patient_output({"squeue", "--noheader", "--format=%T", "--name=" + slurm_name(folder)},
+                     folder.path, waits, stop));
+  SlurmQueue queue;
+  for (std::string state; std::getline(lines, state);) {
+    ++(state == "PENDING" ? queue.pending : queue.running);
+  }
+  return queue;
 }
 
 std::string quoted(const std::string& word) {
@@ -83,7 +103,7 @@ std::vector<std::string> submission(const Plan& plan, const ExecutionContext& co
 
 void submit(const std::vector<Job>& jobs, const Plan& plan, const ExecutionContext& context) {
   const fs::path scratch = context.folder.submissions();
-  const std::size_t max_tasks = largest_array(scratch);
+  const std::size_t max_tasks = largest_array(scratch, context.stop);
   const std::size_t runs_per_task = plan.slurm.runs_per_task > 0
                                         ? static_cast<std::size_t>(plan.slurm.runs_per_task)
                                         : (jobs.size() + max_tasks - 1) / max_tasks;
@@ -96,8 +116,11 @@ void submit(const std::vector<Job>& jobs, const Plan& plan, const ExecutionConte
       fmt::format("{}.jsonl", files::sha256_of_text(ids + pipeline::utc_now()).substr(0, 12));
   files::make_writable_folder(fs::path(list).replace_extension(""));
   write_jobs(list, jobs);
-  const std::string answer =
-      command_output(submission(plan, context, list, tasks, runs_per_task), scratch);
+  // A submission that timed out may have been taken all the same. Then two arrays have the same
+  // list, which costs time and nothing else: a run that is finished is not made again, and of two
+  // that are made at once the first to end stands.
+  const std::string answer = patient_output(submission(plan, context, list, tasks, runs_per_task),
+                                            scratch, kForSubmission, context.stop);
   context.journal.began(fmt::format("Slurm array {} of {} tasks for {} runs",
                                     answer.substr(0, answer.find_first_of("\n;")), tasks,
                                     jobs.size()));
@@ -193,6 +216,18 @@ Completion lost(const Job& job, const ExecutionContext& context) {
   return completion;
 }
 
+/// Whether an earlier command's array is in the queue. Of a controller that does not say, not: see
+/// submit().
+bool has_array(const ExecutionContext& context) {
+  try {
+    return !queue_of(context.folder, kForQuestion, context.stop).empty();
+  } catch (const std::runtime_error& error) {
+    if (!is_passing(error.what())) throw;
+    context.journal.began(fmt::format("Slurm does not say what it has queued: {}", error.what()));
+    return false;
+  }
+}
+
 }  // namespace
 
 std::string slurm_name(const BatchFolder& folder) {
@@ -201,24 +236,20 @@ std::string slurm_name(const BatchFolder& folder) {
 }
 
 SlurmQueue slurm_queue(const BatchFolder& folder) {
-  std::istringstream lines(command_output(
-      {"squeue", "--noheader", "--format=%T", "--name=" + slurm_name(folder)}, folder.path));
-  SlurmQueue queue;
-  for (std::string state; std::getline(lines, state);) {
-    ++(state == "PENDING" ? queue.pending : queue.running);
-  }
-  return queue;
+  const std::atomic<bool> stop{false};
+  return queue_of(folder, {}, stop);
 }
 
 void slurm_cancel(const BatchFolder& folder) {
-  command_output({"scancel", "--name=" + slurm_name(folder)}, folder.path);
+  const std::atomic<bool> stop{false};
+  patient_output({"scancel", "--name=" + slurm_name(folder)}, folder.path, kForSubmission, stop);
 }
 
 void run_on_slurm(const std::vector<Job>& jobs, const Plan& plan, const ExecutionContext& context,
                   const ExecutorEvents& events, bool wait) {
   files::make_writable_folder(context.folder.submissions());
   Collector collector(jobs, context, events);
-  if (!slurm_queue(context.folder).empty()) {
+  if (has_array(context)) {
     if (!wait) return;
     collector.wait();
   }

@@ -124,7 +124,7 @@ Baseline::Baseline(const fs::path& baseline)
     if (run["outcome"].is_null()) continue;
     Run& earlier =
         runs_[{run["recording"].text(), run["variant"].text(), run["repeat"].small_integer()}];
-    earlier.ok = run["outcome"].text() == "ok";
+    earlier.ok = run["outcome"].text() == "ok" || run["outcome"].text() == "degraded";
     const files::JsonValue metrics = run["metrics"];
     for (const std::string& name : metrics.keys()) earlier.metrics[name] = metrics[name].number();
   }
@@ -148,7 +148,7 @@ BaselineComparison Baseline::compare(const Results& results,
     const Run& earlier = found->second;
     const auto [change, is_new] = ok.try_emplace(job.variant(), OkChange{.variant = job.variant()});
     if (is_new) order.push_back(job.variant());
-    const bool is_ok = completion->outcome == Outcome::kOk;
+    const bool is_ok = is_usable(completion->outcome);
     ++change->second.runs;
     change->second.before += earlier.ok ? 1 : 0;
     change->second.now += is_ok ? 1 : 0;

@@ -69,11 +69,11 @@ std::vector<Metric> make_metrics() {
       }
     }
   }
-  const std::vector<Metric> others{{"kitti_translation_percent", "KITTI drift", "%"},
-                                   {"kitti_rotation_deg_per_m", "KITTI rotation", "deg/m"},
+  const std::vector<Metric> others{{"kitti_translation_percent", "Drift (KITTI)", "%"},
+                                   {"kitti_rotation_deg_per_m", "Rotation drift (KITTI)", "deg/m"},
                                    {"kitti_segments", "KITTI segments", "", false},
-                                   {"end_error_m", "End error", "m"},
-                                   {"end_error_percent", "End error", "%"},
+                                   {"end_error_m", "Closing error", "m"},
+                                   {"end_error_percent", "Closing error", "%"},
                                    {"end_rotation_deg", "End rotation", "deg"},
                                    {"path_estimate_m", "Path, estimate", "m", false},
                                    {"path_reference_m", "Path, reference", "m", false},
@@ -85,6 +85,8 @@ std::vector<Metric> make_metrics() {
                                    {"odometry_mme", "Map entropy before loops", "nats"},
                                    {"loop_candidates", "Loop candidates", "", false},
                                    {"loops_accepted", "Loops closed", "", false},
+                                   {"registered_share", "Registered", "", false, false, true},
+                                   {"restarts", "Restarts", ""},
                                    {"frames_used", "Frames used", "", false},
                                    {"frames_skipped", "Records skipped", ""},
                                    {"degenerate_frames", "Degenerate frames", ""},
@@ -154,6 +156,8 @@ void take_accuracy(const json& evaluation, Values& values) {
 
 void take_run(const json& run, Values& values) {
   take(run, "/frames/used", "frames_used", values);
+  take(run, "/health/registered_share", "registered_share", values);
+  take(run, "/health/restarts", "restarts", values);
   take(run, "/map/points", "map_points", values);
   for (const char* name : {"frame_median", "frame_p95", "frame_max"}) {
     take(run, fmt::format("/timing_ms/{}", name).c_str(), fmt::format("{}_ms", name), values);

@@ -29,6 +29,7 @@ constexpr std::size_t kMostListedRuns = 200;
 
 struct Counts {
   std::size_t ok = 0;
+  std::size_t degraded = 0;
   std::size_t finished = 0;
   std::size_t over_budget = 0;
   double run_seconds = 0;
@@ -41,27 +42,18 @@ Counts count(const ReportData& data) {
     if (completion == nullptr) continue;
     ++counts.finished;
     if (completion->outcome == Outcome::kOk) ++counts.ok;
+    if (completion->outcome == Outcome::kDegraded) ++counts.degraded;
     if (!broken_budgets(*completion, data.plan.budgets).empty()) ++counts.over_budget;
     counts.run_seconds += completion->wall_s;
   }
   return counts;
 }
 
-/// The best variant in words: "floam solver.huber_m=0.1 leads with 0.041 m APE".
-std::string leader(const ReportData& data) {
-  const Metric& metric = *find_metric(data.plan.metrics.front());
-  if (data.variants.empty()) return "";
-  const auto mean = data.variants.front().means.find(metric.key);
-  if (mean == data.variants.front().means.end()) return "";
-  return fmt::format("; {} leads with {}{} {}", data.variants.front().variant,
-                     short_number(mean->second), metric.unit.empty() ? "" : " " + metric.unit,
-                     metric.title);
-}
-
 std::string verdict(const ReportData& data, const Counts& counts) {
   std::string text =
       fmt::format("{} of {} ok", counts.ok, plural(data.results.jobs().size(), "run"));
-  text += leader(data);
+  if (counts.degraded > 0) text += fmt::format(", {} degraded", counts.degraded);
+  if (data.lead) text += "; " + to_text(*data.lead, data.plan.metrics.front());
   if (counts.over_budget > 0) text += fmt::format("; {} over budget", counts.over_budget);
   return text + ".";
 }
@@ -128,12 +120,15 @@ Data notices(const ReportData& data, const Counts& counts) {
     for (const auto& [outcome, number] : count_outcomes(data.results)) {
       if (outcome != Outcome::kOk) parts.push_back(fmt::format("{} {}", number, name_of(outcome)));
     }
-    add_notice(list, "fail", "Not ok", fmt::format("{}.", fmt::join(parts, ", ")));
+    const bool all_usable = counts.finished == counts.ok + counts.degraded;
+    add_notice(list, all_usable ? "warn" : "fail", "Not ok",
+               fmt::format("{}.", fmt::join(parts, ", ")));
   }
   if (!data.plan.budgets.empty()) {
     std::vector<std::string> parts;
     for (const Budget& budget : data.plan.budgets) {
-      parts.push_back(fmt::format("{} at most {}", budget.metric, short_number(budget.most)));
+      parts.push_back(
+          fmt::format("{} {} {}", budget.metric, limit_words(budget), short_number(budget.most)));
     }
     add_notice(list, counts.over_budget > 0 ? "fail" : "good",
                counts.over_budget > 0 ? "Fail" : "Pass",
@@ -231,7 +226,7 @@ std::vector<page::Section> sections(const ReportData& data, const Counts& counts
   sections.push_back({"recordings", "Recordings and pipelines"});
   sections.push_back({"distribution", "Distribution"});
   if (has_grid) sections.push_back({"sweep", "Parameter sweep"});
-  if (counts.finished > counts.ok) sections.push_back({"failures", "Failures"});
+  if (counts.finished > counts.ok) sections.push_back({"failures", "Runs that are not ok"});
   sections.push_back({"runs", "Runs"});
   sections.push_back({"provenance", "Provenance"});
   return sections;

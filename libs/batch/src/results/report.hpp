@@ -9,6 +9,7 @@
 #include "traverse/batch/results.hpp"
 
 #include "results/baseline.hpp"
+#include "results/lead.hpp"
 #include "results/summary.hpp"
 #include "results/tables.hpp"
 
@@ -21,6 +22,7 @@ struct ReportData {
   const std::vector<VariantSummary>& variants;
   const std::optional<BaselineComparison>& baseline;
   const std::vector<ShownTable>& tables;
+  std::optional<Lead> lead;
   std::vector<std::string> command;
 };
 

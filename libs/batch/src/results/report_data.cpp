@@ -22,7 +22,8 @@ Json metrics_json(const Plan& plan) {
     list.push_back({{"key", key},
                     {"title", metric.title},
                     {"unit", metric.unit},
-                    {"lower", metric.lower_is_better}});
+                    {"lower", metric.lower_is_better},
+                    {"higher", metric.higher_is_better}});
   }
   return list;
 }

@@ -9,7 +9,7 @@ namespace traverse::batch {
 /// The numbers that the page's scripts draw from, as JSON.
 ///
 /// {
-///   "metrics": [{"key", "title", "unit", "lower"}],
+///   "metrics": [{"key", "title", "unit", "lower", "higher"}],
 ///   "recordings": [NAME], "pipelines": [NAME],
 ///   "variants": [{"name", "pipeline", "settings": ["key=value"], "runs", "ok", "over_budget",
 ///                 "means": [a metric], "kitti": null | {"segments", "translation" | "rotation":

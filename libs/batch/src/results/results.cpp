@@ -72,12 +72,21 @@ std::map<Outcome, std::size_t> count_outcomes(const Results& results) {
   return counts;
 }
 
+std::string_view limit_words(const Budget& budget) {
+  const Metric* metric = find_metric(budget.metric);
+  return metric != nullptr && metric->higher_is_better ? "at least" : "at most";
+}
+
 std::vector<std::string> broken_budgets(const Completion& completion,
                                         const std::vector<Budget>& budgets) {
   std::vector<std::string> broken;
   for (const Budget& budget : budgets) {
     const auto value = value_of(completion, budget.metric);
-    if (value && *value > budget.most) broken.push_back(budget.metric);
+    const Metric* metric = find_metric(budget.metric);
+    const bool is_least = metric != nullptr && metric->higher_is_better;
+    if (value && (is_least ? *value < budget.most : *value > budget.most)) {
+      broken.push_back(budget.metric);
+    }
   }
   return broken;
 }

@@ -82,8 +82,9 @@ std::vector<VariantSummary> summarise(const Results& results, const std::vector<
     if (completion == nullptr) continue;
     ++gathered.summary.finished;
     if (!broken_budgets(*completion, budgets).empty()) ++gathered.summary.over_budget;
-    if (completion->outcome != Outcome::kOk) continue;
+    if (!is_usable(completion->outcome)) continue;
     ++gathered.summary.ok;
+    if (completion->outcome == Outcome::kDegraded) ++gathered.summary.degraded;
     gather(job, *completion, gathered);
   }
   std::vector<VariantSummary> variants;
@@ -95,7 +96,8 @@ std::vector<VariantSummary> summarise(const Results& results, const std::vector<
     return mean == variant.means.end() ? std::numeric_limits<double>::infinity() : mean->second;
   };
   std::stable_sort(variants.begin(), variants.end(), [&](const auto& a, const auto& b) {
-    return a.ok != b.ok ? a.ok > b.ok : rank(a) < rank(b);
+    if (a.ok != b.ok) return a.ok > b.ok;
+    return a.degraded != b.degraded ? a.degraded < b.degraded : rank(a) < rank(b);
   });
   return variants;
 }
@@ -104,7 +106,7 @@ RepeatCheck check_repeats(const Results& results) {
   std::map<std::pair<std::string, std::string>, std::vector<std::string>> groups;
   for (const Job& job : results.jobs()) {
     const Completion* completion = results.find(job);
-    if (completion == nullptr || completion->outcome != Outcome::kOk) continue;
+    if (completion == nullptr || !is_usable(completion->outcome)) continue;
     groups[{job.recording, job.variant()}].push_back(completion->trajectory_sha256);
   }
   RepeatCheck check;

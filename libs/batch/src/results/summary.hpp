@@ -28,7 +28,8 @@ struct VariantSummary {
   std::vector<std::string> settings{};
   std::size_t runs = 0;
   std::size_t finished = 0;
-  std::size_t ok = 0;
+  std::size_t ok = 0;           ///< usable ones, of which
+  std::size_t degraded = 0;     ///< so many are degraded
   std::size_t over_budget = 0;  ///< runs that break a budget
   /// By metric: mean over the recordings of the mean over their repeats; runs that are ok.
   std::map<std::string, double> means{};
@@ -41,8 +42,9 @@ struct RepeatCheck {
   std::size_t different = 0;  ///< of them, those whose trajectories differ
 };
 
-/// One summary a variant, best first: more runs that are ok, then the lower mean of `rank_by`.
-/// A variant that fails on hard recordings is not better for it.
+/// One summary a variant, best first: more runs that are usable, then fewer that are degraded, then
+/// the lower mean of `rank_by`. A variant that fails on hard recordings is not better for it, and
+/// one that is lost there has failed.
 std::vector<VariantSummary> summarise(const Results& results, const std::vector<Budget>& budgets,
                                       const std::string& rank_by);
 

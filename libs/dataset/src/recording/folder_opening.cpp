@@ -73,6 +73,7 @@ std::optional<Reference> choose_reference(RecordingInfo& info, const Statements&
     return load_reference(*found, frames, stamps, info.facts);
   } catch (const InputError& error) {
     info.facts.push_back({"reference", "none", error.what()});
+    info.refused_reference = error.what();
     return std::nullopt;
   }
 }

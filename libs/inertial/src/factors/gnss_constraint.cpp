@@ -18,6 +18,7 @@ void GnssConstraint::constrain(FixedLagSmoother& smoother, const MapFix& fix,
   if (options_.gate && !gate) {
     ++events["navigation begun again after too many fixes were rejected"];
     begin_again(smoother, fix, first_sigma);
+    frame.restarted = true;
   }
   const bool as_pose = options_.form == GnssForm::kPose && fix.heading.has_value();
   frame.gnss = as_pose ? take_pose(smoother, fix, gate)

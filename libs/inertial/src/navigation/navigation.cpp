@@ -119,6 +119,7 @@ class Navigation::Impl {
 
   void start_anew() {
     ++events["IMU gap after which navigation started anew"];
+    starts_anew_ = starts_anew_ || has_started();
     end_frames();
     smoother_.reset();
     imu_.set_last(std::nullopt);
@@ -142,6 +143,7 @@ class Navigation::Impl {
     imu_.begin(first.state);
     outages_.start(first.state.stamp);
     frames_.begin(1);
+    frames_.newest().restarted = std::exchange(starts_anew_, false);
   }
 
   void start_without_fix() {
@@ -305,6 +307,7 @@ class Navigation::Impl {
   Eigen::Vector3d state_rate_ = Eigen::Vector3d::Zero();  ///< at the newest state
   Eigen::Vector3d last_rate_ = Eigen::Vector3d::Zero();   ///< at the one before
   FrameQueue frames_;
+  bool starts_anew_ = false;  ///< the next state is the first after a time without any
 };
 
 Navigation::Navigation(const NavigationOptions& options, const Mounts& mounts)

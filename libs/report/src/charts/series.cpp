@@ -48,16 +48,6 @@ std::optional<Eigen::Vector3d> north_of_reference(const RunData& run) {
   return run.evaluation.comparison->alignment.T_reference_estimate.rotation * *north;
 }
 
-Registration registration_of(const pipeline::FrameTable& frames) {
-  Registration result;
-  const std::vector<double> registered = frames.column("registered");
-  for (std::size_t i = 1; i < registered.size(); ++i) result.lost += registered[i] == 0 ? 1 : 0;
-  for (const double directions : frames.column("degenerate_directions")) {
-    result.degenerate += directions > 0 ? 1 : 0;
-  }
-  return result;
-}
-
 std::size_t skipped_records(const nlohmann::json& record) {
   std::size_t total = 0;
   for (const auto& [reason, count] : record.at("frames").at("skipped").items()) {

@@ -30,13 +30,6 @@ std::optional<Eigen::Vector3d> north_of_map(const RunData& run);
 /// The same in the frame of aligned_estimate().
 std::optional<Eigen::Vector3d> north_of_reference(const RunData& run);
 
-/// How the registration of the frames went.
-struct Registration {
-  std::size_t lost = 0;  ///< not registered, but for the first frame, which defines the map
-  std::size_t degenerate = 0;
-};
-Registration registration_of(const pipeline::FrameTable& frames);
-
 std::size_t skipped_records(const nlohmann::json& record);
 
 /// statistics::quantile(); NaN without values.

@@ -127,6 +127,18 @@ std::string sentence(const Json& differences) {
   return text + fmt::format("{} without a change that is sure.", plural(unchanged, "figure"));
 }
 
+/// What must be known of the runs before their figures: "b is lost: 0 of 23 frames ..."
+std::string health_words(const std::vector<ComparedRun>& runs) {
+  std::string text;
+  for (const ComparedRun& run : runs) {
+    const pipeline::RunHealth& health = run.data.health;
+    if (health.reasons.empty()) continue;
+    text += fmt::format("{} is {}: {} ", run.name, pipeline::name_of(health.verdict),
+                        health.reasons.front().text);
+  }
+  return text;
+}
+
 /// The page and its numbers are replaced only where an earlier comparison stands.
 void require_own(const fs::path& page, const fs::path& numbers) {
   std::error_code failure;
@@ -166,14 +178,16 @@ std::string write_comparison(const std::vector<fs::path>& folders, const fs::pat
   for (const ComparedRun& run : runs) {
     names.push_back({{"name", run.name},
                      {"folder", run.data.folder.path.string()},
-                     {"pipeline", run.data.pipeline_name()}});
+                     {"pipeline", run.data.pipeline_name()},
+                     {"status", pipeline::name_of(run.data.health.verdict)},
+                     {"reason", run.data.health.summary()}});
   }
   model.json["runs"] = std::move(names);
 
   for (Table& table : comparison_tables(runs, options.threshold_percent)) {
     model.add_table(std::move(table));
   }
-  model.add_text("verdict", sentence(model.json["tables"]["differences"]));
+  model.add_text("verdict", health_words(runs) + sentence(model.json["tables"]["differences"]));
   add_comparison_charts(runs, model);
   const auto [light, dark] = draw_overlay(runs);
   model.page.set("overlay_light", light);

@@ -33,6 +33,11 @@ Table figures_table(const std::vector<ComparedRun>& runs) {
     }
     if (any) table.add_row(std::move(cells));
   }
+  std::vector<Cell> verdicts{"status", ""};
+  for (const ComparedRun& run : runs) {
+    verdicts.emplace_back(std::string(pipeline::name_of(run.data.health.verdict)));
+  }
+  table.add_row(std::move(verdicts));
   return table;
 }
 
@@ -53,7 +58,10 @@ Table differences_table(const std::vector<ComparedRun>& runs, double threshold_p
       const double threshold = threshold_percent / 100 * before;
       const auto paired =
           evaluation::bootstrap_difference(common.first, common.second, item.figure);
-      const Change change = paired ? judge(paired->interval, threshold) : Change::kUnknown;
+      const bool is_lost = baseline.is_lost() || runs[k].is_lost();
+      const Change change = is_lost  ? Change::kLost
+                            : paired ? judge(paired->interval, threshold)
+                                     : Change::kUnknown;
       table.add_row({runs[k].name, figure->label, figure->unit, after - before, after / before,
                      paired ? paired->interval.low : kNone, paired ? paired->interval.high : kNone,
                      threshold, Cell::count(common.first.size()), to_text(change)},
@@ -65,6 +73,7 @@ Table differences_table(const std::vector<ComparedRun>& runs, double threshold_p
 
 /// Mean error of a run on each stretch; NaN where it has none.
 std::vector<double> means_by_stretch(const RunData& run, const std::vector<std::int64_t>& ends) {
+  if (run.health.verdict == pipeline::Health::kLost) return std::vector(ends.size(), kNone);
   std::vector<double> sums(ends.size(), 0);
   std::vector<std::size_t> counts(ends.size(), 0);
   for (const auto& [stamp, value] : series_of(run, "rpe_10_frames_rmse_m")) {
@@ -188,6 +197,8 @@ std::string to_text(Change change) {
       return "regressed";
     case Change::kUnknown:
       return "too few values";
+    case Change::kLost:
+      return "a run is lost";
   }
   return {};
 }

@@ -14,9 +14,17 @@ struct ComparedRun {
   std::string name;
   RunData data;
   std::vector<RunFigure> figures;
+
+  bool is_lost() const { return data.health.verdict == pipeline::Health::kLost; }
 };
 
-enum class Change { kImproved, kNoChange, kRegressed, kUnknown };
+enum class Change {
+  kImproved,
+  kNoChange,
+  kRegressed,
+  kUnknown,  ///< too few values
+  kLost      ///< of two runs one of which is lost: its figures are of a path that nobody drove
+};
 
 /// A difference that may be due to chance: all of `interval` must lie beyond `threshold` for it to
 /// count. Lower is better.

@@ -25,6 +25,7 @@ RunFigure figure(std::string_view id, double value, std::string how, std::string
     result.id = id;
     result.label = kind.label;
     result.unit = kind.unit;
+    result.higher_is_better = kind.higher_is_better;
     result.how = std::move(how);
     result.value = value;
     result.no_interval = std::move(no_interval);
@@ -46,15 +47,16 @@ RunFigure figure_of_values(std::string_view id, double value, std::string how,
 
 void add_path(const Comparison& comparison, std::vector<RunFigure>& figures) {
   const evaluation::PathFigures& path = comparison.path;
+  const std::string percent =
+      path.end_error_percent ? fmt::format(", {} %", short_number(*path.end_error_percent)) : "";
   const std::string how =
-      fmt::format("end point {} m off after {} m, from the first pose on",
-                  short_number(path.end_error_m), short_number(path.reference_m));
+      fmt::format("distance of the end points where the first poses coincide{} of {} m", percent,
+                  short_number(path.reference_m));
+  const std::string single = "one end point: its scatter is not known";
+  figures.push_back(figure("closing_error_m", path.end_error_m, how, single));
   if (path.end_error_percent) {
-    figures.push_back(figure("end_drift_percent", *path.end_error_percent, how,
-                             "one end point: its scatter is not known"));
+    figures.push_back(figure("closing_error_percent", *path.end_error_percent, how, single));
   }
-  figures.push_back(
-      figure("end_error_m", path.end_error_m, how, "one end point: its scatter is not known"));
 }
 
 void add_ape(const Comparison& comparison, std::vector<RunFigure>& figures) {
@@ -78,7 +80,7 @@ void add_relative(const Comparison& comparison, std::vector<RunFigure>& figures)
       translation.push_back(segment.translation_percent);
       rotation.push_back(100 * segment.rotation_deg_per_m);
     }
-    const std::string how = fmt::format("mean of {} of 100 to 800 m, {} frame",
+    const std::string how = fmt::format("KITTI: mean over {} of 100 to 800 m, {} frame",
                                         plural(kitti->segments.size(), "segment"), kitti->frame);
     figures.push_back(figure_of_values("kitti_translation_percent", kitti->translation_percent, how,
                                        translation, evaluation::Figure::kMean));
@@ -93,12 +95,33 @@ void add_relative(const Comparison& comparison, std::vector<RunFigure>& figures)
   }
 }
 
+/// How far off a run was when fixes came again.
+void add_outages(const RunData& run, std::vector<RunFigure>& figures) {
+  std::vector<double> errors;
+  for (const double error : run.frames.column("outage_error_m")) {
+    if (error > 0) errors.push_back(error);
+  }
+  if (errors.empty()) return;
+  figures.push_back(figure_of_values(
+      "outage_error_rms_m", evaluation::figure_of(errors, evaluation::Figure::kRmse),
+      fmt::format("rms over {}: horizontal, to the first fix after it",
+                  plural(errors.size(), "GNSS outage")),
+      errors, evaluation::Figure::kRmse));
+}
+
 void add_health(const RunData& run, std::vector<RunFigure>& figures) {
   const std::string exact = "a count, exact";
-  const Registration state = registration_of(run.frames);
-  figures.push_back(figure("lost_frames", static_cast<double>(state.lost),
+  if (const auto share = run.health.registered_share()) {
+    figures.push_back(figure("registered_share", *share,
+                             fmt::format("{} of {}", count_text(run.health.registered),
+                                         plural(run.health.registrable, "frame")),
+                             exact));
+  }
+  figures.push_back(figure("restarts", static_cast<double>(run.health.restarts),
+                           "times that the estimator began again", exact));
+  figures.push_back(figure("lost_frames", static_cast<double>(run.health.lost.frames),
                            "frames that could not be registered, after the first", exact));
-  figures.push_back(figure("degenerate_frames", static_cast<double>(state.degenerate),
+  figures.push_back(figure("degenerate_frames", static_cast<double>(run.health.degenerate.frames),
                            "frames with a direction of motion that is not determined", exact));
   figures.push_back(figure("skipped_records", static_cast<double>(skipped_records(run.record)),
                            "records that could not be used", exact));
@@ -108,12 +131,13 @@ void add_cost(const RunData& run, std::vector<RunFigure>& figures) {
   const auto& timing = run.record.at("timing_ms");
   const std::string on = plural(run.record.at("threads"), "thread");
   const std::string single = "one measurement of this run";
-  figures.push_back(figure_of_values(
-      "frame_median_ms", timing.at("frame_median"),
-      fmt::format("median, {} at 95 %, {}", short_number(timing.at("frame_p95").get<double>()), on),
-      run.frames.column("total_ms"), evaluation::Figure::kMedian));
   figures.push_back(
-      figure("frame_p95_ms", timing.at("frame_p95"), "95th percentile, " + on, single));
+      figure_of_values("frame_median_ms", timing.at("frame_median"),
+                       fmt::format("median, {} at 95 %, {}; quantiles linear between ranks",
+                                   short_number(timing.at("frame_p95").get<double>()), on),
+                       run.frames.column("total_ms"), evaluation::Figure::kMedian));
+  figures.push_back(figure("frame_p95_ms", timing.at("frame_p95"),
+                           "95th percentile, linear between ranks, " + on, single));
   figures.push_back(figure("frame_max_ms", timing.at("frame_max"), "the slowest, " + on, single));
   figures.push_back(
       figure("wall_seconds", run.record.at("wall_seconds"), "the whole run, " + on, single));
@@ -125,14 +149,21 @@ void add_cost(const RunData& run, std::vector<RunFigure>& figures) {
 
 const std::vector<FigureKind>& figure_kinds() {
   static const std::vector<FigureKind> kinds{
-      {"end_drift_percent", "Drift", "%", "end error in percent of the reference's path"},
-      {"end_error_m", "End error", "m", "distance of the last poses, the first brought together"},
+      {"kitti_translation_percent", "Drift", "%", "KITTI: mean over segments of 100 to 800 m"},
+      {"kitti_rotation_deg_per_100m", "Rotation drift", "deg/100 m", "the same of the rotation"},
+      {"closing_error_m", "Closing error", "m",
+       "distance of the last poses where the first coincide"},
+      {"closing_error_percent", "Closing error", "%",
+       "the same in percent of the reference's path, from 10 m on"},
+      {"outage_error_rms_m", "Error after outages", "m",
+       "horizontal, to the first fix after each GNSS outage, rms"},
       {"ape_rmse_m", "APE", "m", "absolute pose error, translation, rmse"},
       {"ape_angle_rmse_deg", "APE, angle", "deg", "absolute pose error, rotation, rmse"},
-      {"kitti_translation_percent", "KITTI drift", "%", "mean over segments of 100 to 800 m"},
-      {"kitti_rotation_deg_per_100m", "KITTI rotation", "deg/100 m", "the same of the rotation"},
       {"rpe_10_frames_rmse_m", "RPE over 10 frames", "m", "relative pose error, rmse"},
       {"map_entropy_nats", "Map entropy", "nats", "mean map entropy; lower is sharper"},
+      {"registered_share", "Registered", "",
+       "frames whose pose rests on a measurement, of those that could", true},
+      {"restarts", "Restarts", "", "times that the estimator gave up what it knew and began again"},
       {"lost_frames", "Lost frames", "", "frames that could not be registered"},
       {"degenerate_frames", "Degenerate frames", "", "frames that do not determine their motion"},
       {"skipped_records", "Skipped records", "", "records that could not be used"},
@@ -147,9 +178,9 @@ const std::vector<FigureKind>& figure_kinds() {
 std::vector<RunFigure> accuracy_figures(const evaluation::Evaluation& evaluation) {
   std::vector<RunFigure> figures;
   if (const auto& comparison = evaluation.comparison) {
-    add_path(*comparison, figures);
-    add_ape(*comparison, figures);
     add_relative(*comparison, figures);
+    add_ape(*comparison, figures);
+    add_path(*comparison, figures);
   }
   if (const auto& score = evaluation.consistency) {
     figures.push_back(figure("map_entropy_nats", score->mme,
@@ -162,6 +193,7 @@ std::vector<RunFigure> accuracy_figures(const evaluation::Evaluation& evaluation
 
 std::vector<RunFigure> run_figures(const RunData& run) {
   std::vector<RunFigure> figures = accuracy_figures(run.evaluation);
+  add_outages(run, figures);
   add_health(run, figures);
   add_cost(run, figures);
   return figures;

@@ -12,7 +12,7 @@
 
 namespace traverse::report {
 
-/// A figure that a run is judged by: in headlines, budgets and comparisons. The lower the better.
+/// A figure that a run is judged by: in headlines, budgets and comparisons.
 struct RunFigure {
   std::string id;     ///< "ape_rmse_m": in report.json, budgets and comparisons
   std::string label;  ///< "APE"
@@ -21,6 +21,7 @@ struct RunFigure {
   double value = 0;
   std::optional<evaluation::Interval> interval;
   std::string no_interval;  ///< why there is none
+  bool higher_is_better = false;
 };
 
 /// What a figure is, for documents and budgets.
@@ -29,6 +30,7 @@ struct FigureKind {
   std::string_view label;
   std::string_view unit;
   std::string_view meaning;
+  bool higher_is_better = false;  ///< else the lower the better; a budget is the least it may be
 };
 
 /// Every figure there can be, in the order in which they are told.

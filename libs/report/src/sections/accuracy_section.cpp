@@ -35,6 +35,18 @@ Table ape_table(const evaluation::Comparison& comparison) {
   return table;
 }
 
+Table split_table(const evaluation::ErrorSplit& split) {
+  Table table("error_split", "Position error by direction",
+                  {"direction", "rmse [m]", "mean [m]", "largest [m]"});
+  const auto add = [&](const char* name, const evaluation::ErrorPart& part) {
+    table.add_row({name, part.rmse_m, part.mean_m, part.max_m});
+  };
+  add("along the path", split.along);
+  add("across, to the left", split.across);
+  add("up", split.up);
+  return table;
+}
+
 /// The two relations that people ask for, or all the others.
 Table rpe_table(const evaluation::Comparison& comparison, bool main_relations) {
   Table table(main_relations ? "rpe" : "rpe_more",
@@ -70,8 +82,8 @@ Table path_table(const evaluation::PathFigures& path) {
   Table table("path", "Path", {"figure", "value", "unit"});
   table.add_row({"path of the estimate", path.estimate_m, "m"});
   table.add_row({"path of the reference", path.reference_m, "m"});
-  table.add_row({"end error", path.end_error_m, "m"});
-  if (path.end_error_percent) table.add_row({"end error", *path.end_error_percent, "%"});
+  table.add_row({"closing error", path.end_error_m, "m"});
+  if (path.end_error_percent) table.add_row({"closing error", *path.end_error_percent, "%"});
   table.add_row({"end rotation", path.end_rotation_deg, "deg"});
   return table;
 }
@@ -105,6 +117,12 @@ void add_accuracy(const RunData& run, Model& model) {
   model.add_text("association", evaluation::describe(comparison.association));
   model.add_text("alignment", evaluation::describe(comparison.alignment, comparison.stamps.size()));
   model.add_table(ape_table(comparison));
+  model.page.set("table_error_split", false);
+  if (comparison.split) {
+    model.add_table(split_table(*comparison.split));
+    model.add_text("error_split_how", evaluation::split_title(comparison));
+    model.add_text("error_split_note", evaluation::alternation_note(comparison));
+  }
   model.add_table(rpe_table(comparison, true));
   model.add_table(rpe_table(comparison, false));
   model.add_table(path_table(comparison.path));

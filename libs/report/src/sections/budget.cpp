@@ -1,8 +1,11 @@
 #include "traverse/report/budget.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -17,6 +20,10 @@ namespace traverse::report {
 
 namespace {
 
+/// What figures were called up to version 0.1, when the closing error was called drift.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kFormerNames{
+    {{"end_drift_percent", "closing_error_percent"}, {"end_error_m", "closing_error_m"}}};
+
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 std::map<std::string_view, double> read_limits(const std::filesystem::path& file) {
@@ -25,6 +32,9 @@ std::map<std::string_view, double> read_limits(const std::filesystem::path& file
   config::read(config::Document::load(file), [&](config::Binder& binder) {
     for (const FigureKind& kind : figure_kinds()) {
       binder.number(kind.id, limits[kind.id], config::Range::any(), kind.meaning);
+    }
+    for (const auto& [former, id] : kFormerNames) {
+      binder.number(former, limits[id], config::Range::any(), "up to version 0.1");
     }
   });
   return limits;
@@ -44,9 +54,9 @@ bool BudgetResult::passed() const {
 std::string BudgetResult::table() const {
   std::string text;
   for (const BudgetLine& line : lines) {
-    text += fmt::format("{}  {:<28}{} {}{}at most {}\n", line.passed() ? "pass" : "FAIL",
-                        line.figure, value_text(line), line.unit, line.unit.empty() ? "" : ", ",
-                        short_number(line.limit));
+    text += fmt::format("{}  {:<28}{} {}{}{} {}\n", line.passed() ? "pass" : "FAIL", line.figure,
+                        value_text(line), line.unit, line.unit.empty() ? "" : ", ",
+                        line.limit_words(), short_number(line.limit));
   }
   const auto failed = std::count_if(lines.begin(), lines.end(),
                                     [](const BudgetLine& line) { return !line.passed(); });
@@ -64,8 +74,9 @@ BudgetResult check_figures(const std::filesystem::path& file,
   for (const FigureKind& kind : figure_kinds()) {
     const double limit = limits.at(kind.id);
     if (limit == kNoLimit) continue;
-    BudgetLine line{std::string(kind.id), std::string(kind.label), std::string(kind.unit), limit,
-                    std::nullopt};
+    BudgetLine line{std::string(kind.id),   std::string(kind.label),
+                    std::string(kind.unit), limit,
+                    kind.higher_is_better,  std::nullopt};
     if (const RunFigure* found = find_figure(figures, kind.id)) line.value = found->value;
     result.lines.push_back(std::move(line));
   }
@@ -90,10 +101,10 @@ BudgetResult check_budget(const std::filesystem::path& budget,
 
 void add_budget(const BudgetResult& result, Model& model) {
   Table table("budget", "Budget " + result.file.filename().string(),
-              {"figure", "value", "at most", "unit", "kept"});
+              {"figure", "value", "limit is", "limit", "unit", "kept"});
   for (const BudgetLine& line : result.lines) {
-    table.add_row({line.label, line.value ? Cell(*line.value) : Cell(kNone), line.limit, line.unit,
-                   line.passed() ? "pass" : "fail"});
+    table.add_row({line.label, line.value ? Cell(*line.value) : Cell(kNone), line.limit_words(),
+                   line.limit, line.unit, line.passed() ? "pass" : "fail"});
   }
   model.add_table(table);
   model.json["budget_kept"] = result.passed();

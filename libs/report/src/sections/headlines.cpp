@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "charts/navigation_series.hpp"
 #include "run/number_texts.hpp"
 #include "sections/budget_check.hpp"
 #include "sections/sections.hpp"
@@ -16,9 +17,12 @@ constexpr std::size_t kMostHeadlines = 6;
 
 /// In the order of importance; the first six that the run defines are shown.
 constexpr std::array<std::string_view, 7> kHeadlines{
-    "end_drift_percent",    "ape_rmse_m",       "kitti_translation_percent",
-    "rpe_10_frames_rmse_m", "map_entropy_nats", "frame_median_ms",
-    "frame_p95_ms"};
+    "kitti_translation_percent", "ape_rmse_m",      "closing_error_m", "rpe_10_frames_rmse_m",
+    "map_entropy_nats",          "frame_median_ms", "frame_p95_ms"};
+/// Of a run that fixes hold: what it is worth is how far it is off, with them and without.
+constexpr std::array<std::string_view, 7> kNavigationHeadlines{
+    "ape_rmse_m",           "outage_error_rms_m", "ape_angle_rmse_deg", "closing_error_m",
+    "rpe_10_frames_rmse_m", "frame_median_ms",    "frame_p95_ms"};
 
 std::string interval_text(const RunFigure& figure) {
   if (!figure.interval) return figure.no_interval;
@@ -61,17 +65,16 @@ TemplateData headline(const RunFigure& figure, const BudgetResult* budget) {
   entry.set("budget", line != nullptr);
   if (line != nullptr) {
     entry.set("budget_kind", line->passed() ? "good" : "fail");
-    entry.set("budget_word",
-              fmt::format("{} {}", line->passed() ? "✓ pass, at most" : "✗ fail, at most",
-                          short_number(line->limit)));
+    entry.set("budget_word", fmt::format("{}, {} {}", line->passed() ? "✓ pass" : "✗ fail",
+                                         line->limit_words(), short_number(line->limit)));
   }
   return entry;
 }
 
 }  // namespace
 
-void add_headlines(const std::vector<RunFigure>& figures, const BudgetResult* budget,
-                   Model& model) {
+void add_headlines(const RunData& run, const std::vector<RunFigure>& figures,
+                   const BudgetResult* budget, Model& model) {
   Json json = Json::object();
   for (const RunFigure& figure : figures) {
     json[figure.id] = {
@@ -86,7 +89,7 @@ void add_headlines(const std::vector<RunFigure>& figures, const BudgetResult* bu
 
   TemplateData list = TemplateData::list();
   std::size_t shown = 0;
-  for (const std::string_view id : kHeadlines) {
+  for (const std::string_view id : is_navigation(run.frames) ? kNavigationHeadlines : kHeadlines) {
     const RunFigure* figure = find_figure(figures, id);
     if (figure == nullptr || shown == kMostHeadlines) continue;
     list.push_back(headline(*figure, budget));

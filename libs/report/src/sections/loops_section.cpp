@@ -55,8 +55,8 @@ Table before_after_table(const RunData& run) {
   if (ape_before != nullptr && ape_after != nullptr) {
     table.add_row({"APE rmse [m]", ape_before->statistics.rmse, ape_after->statistics.rmse});
     table.add_row({"APE, largest [m]", ape_before->statistics.max, ape_after->statistics.max});
-    table.add_row(
-        {"end error [m]", before.comparison->path.end_error_m, after.comparison->path.end_error_m});
+    table.add_row({"closing error [m]", before.comparison->path.end_error_m,
+                   after.comparison->path.end_error_m});
     table.add_row({"end rotation [deg]", before.comparison->path.end_rotation_deg,
                    after.comparison->path.end_rotation_deg});
   }

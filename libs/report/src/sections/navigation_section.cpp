@@ -71,7 +71,7 @@ Table biases_table(const pipeline::FrameTable& frames) {
 }
 
 Table outages_table(const pipeline::FrameTable& frames) {
-  Table table("outages", "Spells without GNSS",
+  Table table("outages", "GNSS outages",
               {"outage ended at [s]", "distance [m]", "error [m]", "of the distance [%]"});
   const auto stamp = frames.column("stamp_s");
   const auto error = frames.column("outage_error_m");

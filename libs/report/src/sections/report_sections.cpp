@@ -24,7 +24,7 @@ bool has_comparison(const RunData& run) { return run.evaluation.comparison.has_v
 
 void fill_verdict(const ReportInput& input, Model& model) {
   add_verdict(input.run, input.figures, model);
-  add_headlines(input.figures, input.budget, model);
+  add_headlines(input.run, input.figures, input.budget, model);
   if (input.budget != nullptr) add_budget(*input.budget, model);
 }
 

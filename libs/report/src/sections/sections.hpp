@@ -13,7 +13,8 @@ struct BudgetResult;
 
 void add_verdict(const RunData& run, const std::vector<RunFigure>& figures, Model& model);
 /// \param budget null if none was given
-void add_headlines(const std::vector<RunFigure>& figures, const BudgetResult* budget, Model& model);
+void add_headlines(const RunData& run, const std::vector<RunFigure>& figures,
+                   const BudgetResult* budget, Model& model);
 /// Of a run that has a comparison.
 void add_accuracy(const RunData& run, Model& model);
 /// Nothing where the map was not scored.

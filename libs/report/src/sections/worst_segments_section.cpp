@@ -46,9 +46,13 @@ void add_worst_segments(const RunData& run, const evaluation::WorstSegments& wor
   model.add_table(table);
   model.add_text(
       "worst_segments_how",
-      fmt::format("By {}; none overlaps a worse one. A click on a frame takes the charts "
+      fmt::format("By {}{}; none overlaps a worse one. A click on a frame takes the charts "
                   "and the 3-D view there.",
-                  worst.measure));
+                  worst.measure,
+                  run.evaluation.comparison
+                      ? ", the median of five pairs that begin one frame after the other, so that "
+                        "no single pose that jitters makes a segment"
+                      : ""));
 }
 
 }  // namespace traverse::report

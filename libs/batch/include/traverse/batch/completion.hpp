@@ -13,10 +13,18 @@
 namespace traverse::batch {
 
 /// How a run ended.
-enum class Outcome { kOk, kFailed, kTimedOut, kOutOfMemory, kCrashed };
+enum class Outcome { kOk, kDegraded, kLost, kFailed, kTimedOut, kOutOfMemory, kCrashed };
 
-inline constexpr std::array<std::pair<std::string_view, Outcome>, 5> kOutcomeNames{
+/// Whether its figures count: ok, or degraded, which is usable with what is said of it. A run that
+/// is lost has figures too, of a path that nobody drove.
+constexpr bool is_usable(Outcome outcome) {
+  return outcome == Outcome::kOk || outcome == Outcome::kDegraded;
+}
+
+inline constexpr std::array<std::pair<std::string_view, Outcome>, 7> kOutcomeNames{
     {{"ok", Outcome::kOk},
+     {"degraded", Outcome::kDegraded},
+     {"lost", Outcome::kLost},
      {"failed", Outcome::kFailed},
      {"timed out", Outcome::kTimedOut},
      {"out of memory", Outcome::kOutOfMemory},

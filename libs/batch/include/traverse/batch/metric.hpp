@@ -15,6 +15,7 @@ struct Metric {
   std::string unit;               ///< "m", "deg", "ms", or empty
   bool lower_is_better = true;    ///< else it is a count or a length, and nothing is better
   bool is_measured_time = false;  ///< of the machine, other on every repeat; so is memory
+  bool higher_is_better = false;  ///< then a budget is the least that it may be
 };
 
 /// Every metric, in the order of the columns of results.csv.

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "traverse/batch/batch_folder.hpp"
@@ -42,6 +43,9 @@ std::optional<double> value_of(const Completion& completion, const std::string& 
 
 /// How many of the finished rows ended how.
 std::map<Outcome, std::size_t> count_outcomes(const Results& results);
+
+/// "at most", or "at least" where more is better.
+std::string_view limit_words(const Budget& budget);
 
 /// The budgets that the run breaks, as metric names.
 std::vector<std::string> broken_budgets(const Completion& completion,

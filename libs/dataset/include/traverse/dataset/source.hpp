@@ -57,6 +57,9 @@ struct RecordingInfo {
   /// Label of the receiver whose fixes the reference is made of: an estimate that takes them too
   /// cannot be judged by it. Empty: none.
   std::string reference_receiver = {};
+  /// Why a reference that was found beside the data is not used: the file and what is wrong with
+  /// it. Empty if there is none such.
+  std::string refused_reference = {};
 };
 
 /// The reference trajectory that belongs to a recording.

@@ -9,6 +9,7 @@
 #include "traverse/evaluation/ape.hpp"
 #include "traverse/evaluation/association.hpp"
 #include "traverse/evaluation/consistency.hpp"
+#include "traverse/evaluation/error_split.hpp"
 #include "traverse/evaluation/evaluation_error.hpp"
 #include "traverse/evaluation/kitti_drift.hpp"
 #include "traverse/evaluation/path_figures.hpp"
@@ -57,6 +58,7 @@ struct Comparison {
   std::vector<double> distances_m;      ///< along the reference from the first match
   Alignment alignment;
   std::vector<Ape> ape;
+  std::optional<ErrorSplit> split;  ///< of the position errors; nothing where the reference stands
   std::vector<Rpe> rpe;             ///< option after option, each with all relations
   std::optional<KittiDrift> kitti;  ///< of the poses as they are, not aligned
   PathFigures path;                 ///< of the poses as they are, not aligned

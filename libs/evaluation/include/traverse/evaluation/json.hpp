@@ -21,6 +21,8 @@ namespace traverse::evaluation {
 ///                                       "stamp_ns": [] | null, "distance_m": []}},
 ///   "alignment": null | {"mode", "scale", "T_reference_estimate": 4x4, "poses_used", "how"},
 ///   "ape": {RELATION: STATS + {"unit", "how", "per_pair": {"value": []}}},
+///   "split": null | {"along": PART, "across": PART, "up": PART, "unit": "m", "poses",
+///                    "alternating_m": null | number, "how"},
 ///   "rpe": [{"delta", "unit": "f|m|deg|rad", "all_pairs", "pairs_from", "relation", "stats":
 ///   STATS,
 ///            "relation_unit", "dropped_without_motion", "how",
@@ -39,7 +41,8 @@ namespace traverse::evaluation {
 ///                          "point_to_plane": null | {"queries", "mean_m", "median_m", "p90_m"}},
 ///   "undefined": [{"metric", "reason"}]
 /// }
-/// STATS: {"rmse", "mean", "median", "std", "min", "max", "sse", "count"}. Times are seconds,
+/// STATS: {"rmse", "mean", "median", "std", "min", "max", "sse", "count"}; PART: {"rmse", "mean",
+/// "max"}. Files from before version 0.2 have no "split". Times are seconds,
 /// stamps whole nanoseconds; indices in rpe and kitti count the elements of association.per_pair.
 std::string to_json(const Evaluation& evaluation);
 

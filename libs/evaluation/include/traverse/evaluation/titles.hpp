@@ -19,11 +19,16 @@ std::string describe(const RpeOptions& options);
 std::string title(const Ape& ape, const Comparison& comparison);
 /// "RPE translation part, 10 frames, consecutive pairs of the estimate, SE(3) alignment, 51 pairs".
 std::string title(const Rpe& rpe, const Comparison& comparison);
+/// "position error along, across and up the path, SE(3) alignment, 514 pairs".
+std::string split_title(const Comparison& comparison);
+/// What an error that alternates from frame to frame means, with its figures; empty where none
+/// does.
+std::string alternation_note(const Comparison& comparison);
 /// "KITTI drift, camera frame, no alignment, 131 segments of 100 to 800 m, one start every 10
 /// poses, 0.1 s a pose".
 std::string title(const KittiDrift& kitti);
-/// "path over 514 pairs, no alignment, end error from the first pair on in % of the reference's
-/// path".
+/// "path over 514 pairs, no alignment; closing error: distance of the last poses where the first
+/// coincide, in % of the reference's path where that is 10 m or more".
 std::string path_title(const Comparison& comparison);
 /// "map consistency, raw points, 5 to 40 m away, one a 0.2 m voxel, 79125 queries among 3152088
 /// points of 108 scans, neighbours within 0.5 m".

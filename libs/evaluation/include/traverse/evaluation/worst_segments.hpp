@@ -23,9 +23,10 @@ struct WorstSegments {
   std::vector<WorstSegment> segments;  ///< the worst first, none overlaps another
 };
 
-/// The five worst: by the relative error over ten frames, or, where there is none, by the residuals
-/// of the registration over as many.
-/// \param residual_rms_m one a pose of the estimate; may be empty
+/// The five worst: by the relative error over ten frames, the median of five pairs that begin one
+/// frame after the other, so that no single pose that jitters makes a segment; or, where there is
+/// none, by the residuals of the registration over as many. \param residual_rms_m one a pose of the
+/// estimate; may be empty
 WorstSegments worst_segments(const Evaluation& evaluation, std::span<const double> residual_rms_m);
 
 }  // namespace traverse::evaluation

@@ -40,6 +40,7 @@ struct NavFrame {
   bool by_gnss = false;                                    ///< what made the state, or joined it
   bool by_wheels = false;
   bool in_outage = false;
+  bool restarted = false;  ///< what was known was given up, and navigation began again here
   Innovation gnss, heading, wheels, standing, inertial;
   Eigen::Vector3d gnss_residual_enu = Eigen::Vector3d::Zero();  ///< predicted - measured, m
   double outage_error_m = 0;     ///< horizontal, at the first fix after one; else 0

@@ -44,6 +44,8 @@ class Odometry {
   /// Takes an inertial sample, its vectors turned into the lidar's axes, before the scans that end
   /// after it. Odometry that uses no IMU ignores it.
   virtual void observe(const sensors::ImuSample& /*sample_lidar*/) {}
+  /// Whether it uses one.
+  virtual bool uses_imu() const { return false; }
 
   /// Names of the values in Frame::further: what this algorithm tells of a frame beyond what all
   /// do.

@@ -25,6 +25,9 @@ class ImuPrediction {
  public:
   explicit ImuPrediction(const ImuOptions& options);
 
+  /// Whether samples are used at all.
+  bool is_used() const { return options_.use; }
+
   /// A sample that is not later than the one before or has a rate that is not finite is ignored.
   void observe(const sensors::ImuSample& sample_lidar);
 

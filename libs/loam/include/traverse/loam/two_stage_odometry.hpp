@@ -61,6 +61,7 @@ class TwoStageOdometry final : public lidar::Odometry {
   std::vector<lidar::Frame> process(const sensors::LidarScan& scan) override;
   std::vector<lidar::Frame> finish() override;
   void observe(const sensors::ImuSample& sample_lidar) override;
+  bool uses_imu() const override { return imu_.is_used(); }
   const std::string& deskew_note() const override { return deskew_note_; }
   lidar::CorrectedScan used_scan(const sensors::LidarScan& scan, const geometry::Twist& velocity,
                                  bool with_classes) const override;

@@ -12,6 +12,8 @@
 #include "traverse/geometry/pose3.hpp"
 #include "traverse/geometry/stamp.hpp"
 #include "traverse/optimization/factor_kind.hpp"
+#include "traverse/pipeline/health_reason.hpp"
+#include "traverse/pipeline/sensor_use.hpp"
 #include "traverse/pipeline/slam_map.hpp"
 #include "traverse/sensors/measurement.hpp"
 
@@ -76,6 +78,13 @@ class Estimator {
   virtual std::string points_are() const = 0;
 
   virtual std::vector<Decision> decisions() const = 0;
+
+  /// What became of the readings of the sensors that it takes: used, rejected and why; the run
+  /// counts what was read. Complete after finish(). Sensors that it does not name are not used.
+  virtual std::vector<SensorUse> sensor_use() const { return {}; }
+
+  /// What went wrong that the frames' records do not tell, for the assessment of the run.
+  virtual std::vector<HealthReason> troubles() const { return {}; }
 
   /// Unit vector to true north in the map frame, where the estimator ties the map to the earth.
   virtual std::optional<Eigen::Vector3d> north_map() const { return std::nullopt; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,9 +24,17 @@ struct ResolvedSetting {
 struct Pipeline {
   std::string name;
   std::string description;
+  std::string estimator_kind;  ///< the key `estimator`: "voxel_map", "localize_voxel_map"
   std::unique_ptr<Estimator> estimator;
   std::vector<ResolvedSetting> settings;
 };
+
+/// The request of a preset of lidar odometry, turned into one that follows a recording in a map.
+/// \param map keyframes.simplemap of a run  \param start x, y, z [m] and yaw [deg] of the body at
+/// the first scan; empty: it is searched for
+/// \throws files::InputError as load_preset(), and if the preset is of no lidar odometry
+PresetRequest localizing_in(const std::filesystem::path& map, const std::vector<double>& start,
+                            PresetRequest request, const std::filesystem::path& share_folder);
 
 /// Every setting of the preset's algorithm with its resolved value.
 /// \throws files::InputError for an unknown estimator or a wrong setting (file, line, key).

@@ -11,6 +11,7 @@
 #include "traverse/optimization/jacobian_audit.hpp"
 #include "traverse/pipeline/frame_table.hpp"
 #include "traverse/pipeline/run_folder.hpp"
+#include "traverse/pipeline/run_health.hpp"
 #include "traverse/slam/loop.hpp"
 
 namespace traverse::pipeline {
@@ -28,6 +29,7 @@ struct RunContents {
   RunFolder folder;
   std::string
       record_json;    ///< run.json: all keys of docs/run-folder.md are there, each of its kind
+  RunHealth health;   ///< of run.json; of an older folder, by the files of the part that was read
   FrameTable frames;  ///< one row a pose of the estimate
   geometry::Trajectory estimate;
   std::optional<geometry::Trajectory> reference;

@@ -11,10 +11,18 @@
 #include "traverse/pipeline/estimator.hpp"
 #include "traverse/pipeline/provenance.hpp"
 #include "traverse/pipeline/registry.hpp"
+#include "traverse/pipeline/run_health.hpp"
 
 namespace traverse::pipeline {
 
-enum class RunStatus { kOk, kFailed, kInterrupted };
+/// How a run ended. One that came to its end is ok, degraded or lost by its assessment
+/// (RunHealth); all three are complete.
+enum class RunStatus { kOk, kDegraded, kLost, kFailed, kInterrupted };
+
+/// Whether it came to its end, however good it is.
+constexpr bool is_complete(RunStatus status) {
+  return status == RunStatus::kOk || status == RunStatus::kDegraded || status == RunStatus::kLost;
+}
 
 /// Milliseconds of one stage over the frames.
 struct StageTiming {
@@ -28,11 +36,13 @@ struct StageTiming {
 /// Everything about a run but its results: run.json.
 struct RunRecord {
   RunStatus status = RunStatus::kFailed;
-  std::string reason;  ///< of a failure or interruption
+  std::string reason;               ///< why it is not ok
+  std::optional<RunHealth> health;  ///< nothing without a frame
 
   std::vector<std::string> command;
   std::string pipeline;
   std::string pipeline_description;
+  std::string estimator_kind;  ///< "voxel_map", "localize_voxel_map"
   std::vector<ResolvedSetting> settings;
   int threads = 1;
 

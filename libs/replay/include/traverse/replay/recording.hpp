@@ -35,6 +35,8 @@ class Recording {
   /// Frames there are at most: those of the run, when it is one.
   std::size_t max_frames() const { return max_frames_; }
   bool is_run() const { return run_.has_value(); }
+  /// How far the run can be believed; null for a recording.
+  const pipeline::RunHealth* health() const { return run_ ? &run_->contents->health : nullptr; }
   bool has_lidar() const { return info_.rig.first(sensors::SensorKind::kLidar) != nullptr; }
   const std::filesystem::path& share_folder() const { return options_.share_folder; }
 

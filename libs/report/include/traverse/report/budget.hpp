@@ -13,14 +13,16 @@ namespace traverse::report {
 
 /// One limit of a budget and what was found.
 struct BudgetLine {
-  std::string figure;           ///< "frame_median_ms"
-  std::string label;            ///< "Time per frame"
-  std::string unit;             ///< "ms"; empty for counts
-  double limit = 0;             ///< at most so much
+  std::string figure;  ///< "frame_median_ms"
+  std::string label;   ///< "Time per frame"
+  std::string unit;    ///< "ms"; empty for counts
+  double limit = 0;
+  bool is_least = false;        ///< the limit is the least that the figure may be, else the most
   std::optional<double> value;  ///< nothing where the run does not define the figure
 
   /// A figure that is not defined does not keep a limit.
-  bool passed() const { return value && *value <= limit; }
+  bool passed() const { return value && (is_least ? *value >= limit : *value <= limit); }
+  const char* limit_words() const { return is_least ? "at least" : "at most"; }
 };
 
 struct BudgetResult {
@@ -36,7 +38,8 @@ struct BudgetResult {
 /// \throws files::InputError for an unknown figure, a value that is no number, or no limit at all.
 void require_valid_budget(const std::filesystem::path& budget);
 
-/// A run against a budget: a YAML file of "figure: at most". share/budgets/ has examples;
+/// A run against a budget: a YAML file of "figure: at most", or at least for what is better when
+/// it is more (registered_share). share/budgets/ has examples;
 /// docs/report-json.md lists the figures.
 /// \throws files::InputError for a budget with an unknown figure, and as write_run_report() does.
 BudgetResult check_budget(const std::filesystem::path& budget,

@@ -1,0 +1,204 @@
+#include "results/lead.hpp"
+
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "traverse/batch/metric.hpp"
+#include "traverse/evaluation/bootstrap.hpp"
+#include "traverse/evaluation/json.hpp"
+#include "traverse/evaluation/relation.hpp"
+#include "traverse/files/input_error.hpp"
+#include "traverse/pipeline/run_folder.hpp"
+
+namespace traverse::batch {
+
+namespace {
+
+using evaluation::Figure;
+
+constexpr double kLeadConfidence = 0.95;
+constexpr double kNormalQuantile = 1.959963984540054;  // of 0.975
+constexpr std::size_t kEnoughRecordings = 3;           // for Student's t to say anything
+
+/// Errors of a run by the moment that they belong to.
+using Series = std::map<std::int64_t, double>;
+
+/// The series that a metric is a figure of, and which; nothing for a metric without one.
+struct SeriesOfMetric {
+  explicit SeriesOfMetric(std::string_view metric) {
+    for (const auto& [ending, kind] :
+         {std::pair{"_rmse", Figure::kRmse}, std::pair{"_mean", Figure::kMean},
+          std::pair{"_median", Figure::kMedian}}) {
+      if (metric.ends_with(ending)) figure = kind;
+    }
+    is_ape = figure && metric.starts_with("ape_translation_");
+    is_rpe = figure && metric.starts_with("rpe_10f_translation_");
+  }
+  bool is_known() const { return is_ape || is_rpe; }
+
+  Series of(const evaluation::Evaluation& evaluation) const {
+    Series series;
+    if (!evaluation.comparison) return series;
+    const auto& comparison = *evaluation.comparison;
+    const auto relation = evaluation::Relation::kTranslation;
+    if (comparison.stamps.empty()) return series;
+    if (const auto* ape = evaluation::find_ape(comparison, relation); is_ape && ape != nullptr) {
+      for (std::size_t k = 0; k < ape->values.size(); ++k) {
+        series[comparison.stamps[k].nanoseconds] = ape->values[k];
+      }
+    }
+    if (const auto* rpe = evaluation::find_rpe(comparison, relation, 10);
+        is_rpe && rpe != nullptr) {
+      for (std::size_t k = 0; k < rpe->values.size(); ++k) {
+        series[comparison.stamps[rpe->pairs[k].to].nanoseconds] = rpe->values[k];
+      }
+    }
+    return series;
+  }
+
+  std::optional<Figure> figure;
+  bool is_ape = false;
+  bool is_rpe = false;
+};
+
+/// By recording: the mean of the metric over the repeats, and the first run that has it.
+struct OfRecording {
+  double sum = 0;
+  double count = 0;
+  const Job* job = nullptr;
+  double mean() const { return sum / count; }
+};
+
+std::map<std::string, OfRecording> by_recording(const Results& results, const std::string& variant,
+                                                const std::string& metric) {
+  std::map<std::string, OfRecording> recordings;
+  for (const Job& job : results.jobs()) {
+    const Completion* completion = results.find(job);
+    if (job.variant() != variant || completion == nullptr || !is_usable(completion->outcome)) {
+      continue;
+    }
+    const auto value = value_of(*completion, metric);
+    if (!value) continue;
+    OfRecording& of = recordings[job.recording];
+    of.sum += *value;
+    ++of.count;
+    if (of.job == nullptr) of.job = &job;
+  }
+  return recordings;
+}
+
+std::optional<std::pair<double, double>> interval_over_recordings(
+    const std::vector<double>& differences) {
+  const auto n = static_cast<double>(differences.size());
+  double mean = 0;
+  for (const double difference : differences) mean += difference / n;
+  double squares = 0;
+  for (const double difference : differences) squares += std::pow(difference - mean, 2);
+  const boost::math::students_t distribution(n - 1);
+  const double half =
+      std::sqrt(squares / (n - 1) / n) * boost::math::quantile(distribution, 0.5 + kLeadConfidence / 2);
+  return std::pair(mean - half, mean + half);
+}
+
+/// Half of the interval of the difference on one recording.
+std::optional<double> half_along_drive(const Job& first, const Job& second,
+                                       const SeriesOfMetric& series, const BatchFolder& folder) {
+  const auto read = [&](const Job& job) {
+    const pipeline::RunFolder run{folder.run(job.id)};
+    return series.of(evaluation::read_evaluation(run.evaluation()));
+  };
+  const Series of_first = read(first);
+  const Series of_second = read(second);
+  std::vector<double> a;
+  std::vector<double> b;
+  for (const auto& [moment, value] : of_first) {
+    const auto found = of_second.find(moment);
+    if (found == of_second.end()) continue;
+    a.push_back(value);
+    b.push_back(found->second);
+  }
+  const auto difference = evaluation::bootstrap_difference(a, b, *series.figure);
+  if (!difference) return std::nullopt;
+  return (difference->interval.high - difference->interval.low) / 2;
+}
+
+std::string with_unit(double value, const Metric& metric) {
+  return fmt::format("{:.3g}{}{}", value, metric.unit.empty() ? "" : " ", metric.unit);
+}
+
+}  // namespace
+
+std::optional<Lead> find_lead(const Plan& plan, const Results& results,
+                              const std::vector<VariantSummary>& variants,
+                              const BatchFolder& folder) {
+  const std::string& metric = plan.metrics.front();
+  std::vector<const VariantSummary*> with_metric;
+  for (const VariantSummary& variant : variants) {
+    if (variant.means.contains(metric)) with_metric.push_back(&variant);
+  }
+  if (with_metric.empty() || with_metric.front() != &variants.front()) return std::nullopt;
+  Lead lead;
+  lead.first = with_metric[0]->variant;
+  lead.mean = with_metric[0]->means.at(metric);
+  if (with_metric.size() < 2) return lead;
+  lead.second = with_metric[1]->variant;
+  lead.has_more_ok = with_metric[0]->ok > with_metric[1]->ok;
+  const auto first = by_recording(results, lead.first, metric);
+  const auto second = by_recording(results, lead.second, metric);
+  const SeriesOfMetric series{metric};
+  std::vector<double> differences;
+  double variance = 0;  // of the mean of the differences, by the drives alone
+  bool has_variance = series.is_known();
+  for (const auto& [recording, of_first] : first) {
+    const auto of_second = second.find(recording);
+    if (of_second != second.end()) {
+      differences.push_back(of_second->second.mean() - of_first.mean());
+    }
+  }
+  const auto n = static_cast<double>(differences.size());
+  for (const double difference : differences) lead.difference += difference / n;
+  if (differences.size() >= kEnoughRecordings) {
+    lead.interval = interval_over_recordings(differences);
+    return lead;
+  }
+  for (const auto& [recording, of_first] : first) {
+    const auto of_second = second.find(recording);
+    if (!has_variance || of_second == second.end()) continue;
+    try {
+      const auto half = half_along_drive(*of_first.job, *of_second->second.job, series, folder);
+      has_variance = half.has_value();
+      if (half) variance += std::pow(*half / kNormalQuantile / n, 2);
+    } catch (const files::InputError&) {
+      has_variance = false;  // a run folder that somebody has tidied up
+    }
+  }
+  if (has_variance && !differences.empty()) {
+    const double half = kNormalQuantile * std::sqrt(variance);
+    lead.interval = std::pair(lead.difference - half, lead.difference + half);
+  }
+  return lead;
+}
+
+std::string to_text(const Lead& lead, const std::string& metric_key) {
+  const Metric& metric = *find_metric(metric_key);
+  const std::string value = fmt::format("{} {}", with_unit(lead.mean, metric), metric.title);
+  if (lead.second.empty()) return fmt::format("{} has {}", lead.first, value);
+  const std::string differs =
+      lead.interval
+          ? fmt::format("{} {} more, 95 % {:.2g} to {:.2g}", lead.second,
+                        with_unit(lead.difference, metric), lead.interval->first,
+                        lead.interval->second)
+          : fmt::format("{} {} more, no interval", lead.second, with_unit(lead.difference, metric));
+  if (lead.has_more_ok) {
+    return fmt::format("{} leads by more runs that are ok, with {}", lead.first, value);
+  }
+  if (lead.is_sure()) return fmt::format("{} leads with {} ({})", lead.first, value, differs);
+  return fmt::format("{} and {} are tied at {} ({})", lead.first, lead.second, value, differs);
+}
+
+}  // namespace traverse::batch

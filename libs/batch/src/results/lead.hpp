@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "traverse/batch/batch_folder.hpp"
+#include "traverse/batch/plan.hpp"
+#include "traverse/batch/results.hpp"
+
+#include "results/summary.hpp"
+
+namespace traverse::batch {
+
+/// Whether the best variant is better than the next for sure, by the first metric of the plan.
+struct Lead {
+  std::string first;
+  std::string second;     ///< empty: there is no other with the metric
+  double mean = 0;        ///< of the first, over the recordings
+  double difference = 0;  ///< second less first, mean over the recordings that both have
+  /// 95 % interval of the difference; nothing where there is nothing to tell it by. Of three
+  /// recordings and more Student's t over them (paired); of fewer the paired moving-block bootstrap
+  /// along each, which knows what varies in these drives, not between drives.
+  std::optional<std::pair<double, double>> interval;
+  bool has_more_ok = false;  ///< the second has fewer runs that are ok: that alone makes the lead
+
+  bool is_sure() const { return has_more_ok || (interval && interval->first > 0); }
+};
+
+/// Nothing without a run that has the metric.
+std::optional<Lead> find_lead(const Plan& plan, const Results& results,
+                              const std::vector<VariantSummary>& variants,
+                              const BatchFolder& folder);
+
+/// "floam leads with 0.041 m APE (loam 0.012 m more, 95 % 0.008 to 0.016)", "floam and loam are
+/// tied at ...", as a part of a sentence.
+std::string to_text(const Lead& lead, const std::string& metric);
+
+}  // namespace traverse::batch
