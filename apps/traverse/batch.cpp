@@ -42,6 +42,7 @@ struct BatchArguments {
   bool wait = true;
   std::string baseline;
   std::int64_t last = -1;
+  bool is_private = false;
 };
 
 fs::path this_program() { return fs::read_symlink("/proc/self/exe"); }
@@ -67,6 +68,7 @@ batch::Plan checked_plan(const BatchArguments& arguments, const fs::path& share)
     batch::Plan plan = batch::load_plan(arguments.plan, share, simulation_error);
     print_notes(plan.notes);
     if (arguments.last >= 0) batch::stop_after(arguments.last, plan);
+    plan.is_private |= arguments.is_private;
     if (arguments.executor == "local") batch::check_this_machine(plan);
     return plan;
   } catch (const files::InputError& error) {
@@ -285,6 +287,8 @@ void add_batch(CLI::App& app) {
       ->option_text("N");
   batch->add_option("--baseline", arguments->baseline, "folder or results.json to compare with")
       ->check(CLI::ExistingPath);
+  batch->add_flag("--private", arguments->is_private,
+                  "results do not tell whose machines made them, nor paths on them");
   batch->require_subcommand(0, 1);
   add_status(*batch);
   add_cancel(*batch);

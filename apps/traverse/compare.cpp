@@ -45,6 +45,8 @@ void add_compare(CLI::App& app) {
                    "percent of the baseline below which a difference does not count")
       ->check(CLI::Range(0.0, 1000.0))
       ->capture_default_str();
+  compare->add_flag("--private", arguments->options.is_private,
+                    "the page does not tell whose machine made the runs, nor paths on it");
   compare->footer(kExamples);
   compare->callback([arguments] {
     if (arguments->page.extension() != ".html") {

@@ -19,6 +19,8 @@
 #include "traverse/evaluation/table.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/numbers.hpp"
+#include "traverse/pipeline/run_digests.hpp"
+#include "traverse/pipeline/run_folder.hpp"
 
 #include "budget_option.hpp"
 #include "commands.hpp"
@@ -146,6 +148,13 @@ void choose_rpe(const Arguments& arguments, evaluation::EvaluationOptions& optio
   }
 }
 
+void require_files_of_run(const Arguments& arguments) {
+  const pipeline::RunFolder run{arguments.estimate};
+  std::vector<fs::path> files{run.trajectory(), run.evaluation()};
+  if (!arguments.reference) files.push_back(run.reference());
+  pipeline::require_as_written(run, files);
+}
+
 /// The drift of a run is measured in the frame that the run itself was evaluated in.
 void take_frame_of_run(const fs::path& run, evaluation::KittiDriftOptions& options) {
   const fs::path file = run / "evaluation.json";
@@ -176,6 +185,7 @@ void evaluate(const Arguments& arguments) {
   fs::path estimate_file = arguments.estimate;
   fs::path reference_file = arguments.reference.value_or(arguments.estimate / "reference.tum");
   if (fs::is_directory(arguments.estimate)) {
+    require_files_of_run(arguments);
     estimate_file = arguments.estimate / "trajectory.tum";
     take_frame_of_run(arguments.estimate, options.kitti);
   }

@@ -10,6 +10,7 @@
 #include "recording_options.hpp"
 #include "recording_progress.hpp"
 #include "recording_report.hpp"
+#include "run_info.hpp"
 
 namespace traverse::app {
 
@@ -24,6 +25,7 @@ struct InfoOptions {
 constexpr const char* kExamples = R"(Examples:
   traverse info 2011_09_26_drive_0001_sync
   traverse info drive.rawlog --json drive.json
+  traverse info RUN                                    how a run went, and what can be done with it
   traverse info scans --recording sensor=hdl64e_kitti --recording period_s=0.1
   traverse info --formats)";
 
@@ -32,7 +34,20 @@ void list_formats(const InfoOptions& options) {
   fmt::print("{}", recording_formats_text());
 }
 
+void show_run(const InfoOptions& options) {
+  const std::string& folder = options.recording.recording;
+  if (!options.recording.config.empty() || !options.recording.statements.empty()) {
+    throw CLI::ValidationError("--recording", folder + " is a run, not a recording");
+  }
+  if (!options.json.empty()) write_json_output(options.json, run_json(folder));
+  fmt::print("{}", run_text(folder));
+}
+
 void run_info(const InfoOptions& options) {
+  if (is_run_folder(options.recording.recording)) {
+    show_run(options);
+    return;
+  }
   const auto source = options.recording.open();
   RecordingProgress progress("reading", *source);
   const dataset::RecordingSurvey survey =
@@ -47,10 +62,10 @@ void run_info(const InfoOptions& options) {
 }  // namespace
 
 void add_info(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "info",
-      "Reads a recording and says what is in it, what is wrong with it, and what is "
-      "taken for true about it");
+  CLI::App* command = app.add_subcommand("info",
+                                         "Shows a run folder, or reads a recording and says what "
+                                         "is in it, what is wrong with it, and what is "
+                                         "taken for true about it");
   auto options = std::make_shared<InfoOptions>();
   add_recording_options(*command, options->recording);
   CLI::Option* recording = command->get_option("RECORDING")->required(false);

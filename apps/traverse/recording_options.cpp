@@ -18,6 +18,10 @@ std::unique_ptr<dataset::Source> RecordingOptions::open() const {
   return dataset::open_recording(recording, open_options());
 }
 
+std::vector<std::string> RecordingOptions::lasting_statements() const {
+  return dataset::lasting_statements(recording, open_options());
+}
+
 void add_recording_options(CLI::App& command, RecordingOptions& options, const std::string& name) {
   command
       .add_option(name, options.recording,

@@ -24,6 +24,9 @@ struct RecordingOptions {
 
   /// Opens the recording. \throws files::InputError
   std::unique_ptr<dataset::Source> open() const;
+
+  /// What is stated, to hold from any working directory. \throws files::InputError
+  std::vector<std::string> lasting_statements() const;
 };
 
 /// Declares them; `options` must outlive the parsing. `name` is what the help calls the recording.

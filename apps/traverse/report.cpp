@@ -52,6 +52,8 @@ void add_report(CLI::App& app) {
                    "folder for every table of the report as CSV and LaTeX")
       ->type_name("DIR");
   add_budget_option(*report, arguments->options.budget);
+  report->add_flag("--private", arguments->options.is_private,
+                   "the page does not tell whose machine made the run, nor paths on it");
   report->footer(kExamples);
   report->callback([arguments] {
     const auto budget = write_report_with_progress(

@@ -21,6 +21,7 @@
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/number_text.hpp"
 #include "traverse/pipeline/run_destination.hpp"
+#include "traverse/pipeline/run_digests.hpp"
 #include "traverse/pipeline/utm_trajectory.hpp"
 
 #include "budget_option.hpp"
@@ -58,6 +59,7 @@ struct RunArguments {
   bool hash = true;
   bool bench_factors = false;
   bool force = false;
+  bool is_private = false;
 };
 
 std::size_t expected_frames(const dataset::Source& source, const pipeline::RunOptions& options) {
@@ -137,9 +139,15 @@ class RunExtras {
       : arguments_(arguments), folder_(folder), stop_(stop) {}
 
   void make(dataset::Source& source, const pipeline::Estimator& estimator,
-            const pipeline::RunRecord& record, const std::filesystem::path& templates,
+            pipeline::RunRecord& record, const std::filesystem::path& templates,
             const std::filesystem::path& place) {
-    if (arguments_.utm) attempt([&] { write_utm(estimator, folder_); });
+    if (arguments_.utm) {
+      attempt([&] {
+        write_utm(estimator, folder_);
+        pipeline::add_digests(folder_, record.files);
+        pipeline::write_record(folder_, record);
+      });
+    }
     if (arguments_.bench_factors && is_complete(record.status)) {
       attempt([&] { measure_factors(source, record, folder_); });
     }
@@ -217,6 +225,7 @@ pipeline::RunOptions run_options(const RunArguments& arguments,
   if (arguments.last) options.last = *arguments.last;
   options.threads = arguments.threads;
   options.hash_recording = arguments.hash;
+  options.is_private = arguments.is_private;
   options.command = command;
   return options;
 }
@@ -305,11 +314,15 @@ void run_recording(RunArguments& arguments, const std::vector<std::string>& comm
   add_statements_and_settings(arguments);
   const InstalledFiles installed = find_installed_files();
   const pipeline::Preset preset = checked_preset(arguments, installed.share);
-  if (arguments.budget) report::require_valid_budget(*arguments.budget);
+  if (arguments.budget && report::require_valid_budget(*arguments.budget)) {
+    arguments.is_private = true;
+  }
   pipeline::RunDestination destination(arguments.folder, inputs_of(arguments));
   const std::unique_ptr<dataset::Source> source = arguments.recording.open();
   pipeline::Pipeline pipeline = pipeline::make_pipeline(preset, source->info(), arguments.threads);
-  const pipeline::RunOptions options = run_options(arguments, command);
+  pipeline::RunOptions options = run_options(arguments, command);
+  options.statements = arguments.recording.lasting_statements();
+  options.place = destination.given();
 
   RunStage stage;
   const OrderlyStop stop([&] { return stage.on_stop(); });
@@ -394,6 +407,8 @@ CLI::App* add_estimating(CLI::App& app, const std::string& name, const std::stri
   run->add_flag("--utm", arguments->utm,
                 "write the trajectory in UTM coordinates too (RUN/trajectory_utm.tum)");
   add_budget_option(*run, arguments->budget);
+  run->add_flag("--private", arguments->is_private,
+                "run.json and the page do not tell whose machine made the run, nor paths on it");
   run->add_flag("!--no-hash", arguments->hash, "do not compute the recording's SHA-256");
   run->callback([arguments] {
     if (arguments->last && *arguments->last < arguments->first) {

@@ -1,7 +1,7 @@
 #include "run_summary.hpp"
 
 #include <string>
-#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -53,25 +53,42 @@ void print_sensors(const pipeline::RunRecord& record) {
 
 void print_accuracy(const evaluation::Comparison& comparison) {
   const char* name = "accuracy";
-  const auto print = [&](const std::string& text) { print_line(std::exchange(name, ""), text); };
-  if (const auto& kitti = comparison.kitti) {
-    print(fmt::format("drift {:.2f} %, {:.4f} deg/m (KITTI, mean over {} segments, {} frame)",
-                      kitti->translation_percent, kitti->rotation_deg_per_m, kitti->segments.size(),
-                      kitti->frame));
+  for (const std::string& line : accuracy_lines(comparison)) {
+    print_line(name, line);
+    name = "";
   }
-  for (const evaluation::Ape& ape : comparison.ape) {
-    if (ape.relation != evaluation::Relation::kTranslation) continue;
-    print(fmt::format("APE {:.3f} m (rmse over {} poses)", ape.statistics.rmse,
-                      ape.statistics.count));
+}
+
+/// What lies beside the recording and could give an accuracy.
+void print_unused(const dataset::RecordingInfo& recording) {
+  for (const dataset::Fact& fact : recording.facts) {
+    if (fact.name != dataset::kNotUsed) continue;
+    print_line(dataset::kNotUsed, fact.value + ": " + fact.reason);
   }
-  const evaluation::PathFigures& path = comparison.path;
-  print(
-      fmt::format("closing error {:.3f} m{} after {:.1f} m, {:.2f} deg", path.end_error_m,
-                  path.end_error_percent ? fmt::format(" ({:.2f} %)", *path.end_error_percent) : "",
-                  path.reference_m, path.end_rotation_deg));
 }
 
 }  // namespace
+
+std::vector<std::string> accuracy_lines(const evaluation::Comparison& comparison) {
+  std::vector<std::string> lines;
+  if (const auto& kitti = comparison.kitti) {
+    lines.push_back(
+        fmt::format("drift {:.2f} %, {:.4f} deg/m (KITTI, mean over {} segments, {} frame)",
+                    kitti->translation_percent, kitti->rotation_deg_per_m, kitti->segments.size(),
+                    kitti->frame));
+  }
+  for (const evaluation::Ape& ape : comparison.ape) {
+    if (ape.relation != evaluation::Relation::kTranslation) continue;
+    lines.push_back(fmt::format("APE {:.3f} m (rmse over {} poses)", ape.statistics.rmse,
+                                ape.statistics.count));
+  }
+  const evaluation::PathFigures& path = comparison.path;
+  lines.push_back(
+      fmt::format("closing error {:.3f} m{} after {:.1f} m, {:.2f} deg", path.end_error_m,
+                  path.end_error_percent ? fmt::format(" ({:.2f} %)", *path.end_error_percent) : "",
+                  path.reference_m, path.end_rotation_deg));
+  return lines;
+}
 
 void print_run_summary(const pipeline::RunRecord& record, const pipeline::RunFolder& folder,
                        bool with_report) {
@@ -83,6 +100,7 @@ void print_run_summary(const pipeline::RunRecord& record, const pipeline::RunFol
   }
   if (evaluation.comparison) print_accuracy(*evaluation.comparison);
   print_sensors(record);
+  if (!record.reference_file) print_unused(record.recording);
   if (evaluation.consistency) {
     print_line("map",
                fmt::format("entropy (MME) {:.3f}, {} points ({})", evaluation.consistency->mme,

@@ -1,9 +1,16 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
+#include "traverse/evaluation/evaluate.hpp"
 #include "traverse/pipeline/run_folder.hpp"
 #include "traverse/pipeline/run_record.hpp"
 
 namespace traverse::app {
+
+/// The figures of a comparison in words, the most telling first.
+std::vector<std::string> accuracy_lines(const evaluation::Comparison& comparison);
 
 /// Prints the headline numbers of a run and where its report is.
 void print_run_summary(const pipeline::RunRecord& record, const pipeline::RunFolder& folder,

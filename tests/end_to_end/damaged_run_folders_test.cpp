@@ -13,14 +13,17 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "traverse/dataset/trajectory_files.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
+#include "traverse/files/sealed_json.hpp"
 #include "traverse/files/text_file.hpp"
 #include "traverse/loam/factor_bench.hpp"
 #include "traverse/mapping/map_folder.hpp"
 #include "traverse/mapping/map_origin.hpp"
+#include "traverse/pipeline/run_digests.hpp"
 #include "traverse/pipeline/run_folder.hpp"
 #include "traverse/pipeline/run_keyframes.hpp"
 #include "traverse/replay/recording.hpp"
@@ -39,6 +42,7 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using testing::run_program;
+using Json = nlohmann::ordered_json;
 
 constexpr const char* kTemplates = TRAVERSE_SOURCE_DIR "/reports/templates";
 
@@ -55,7 +59,8 @@ constexpr std::array<std::pair<Command, const char*>, 5> kCommands{
 struct RunFile {
   const char* name;
   std::set<Command> readers;
-  std::set<Command> lookers = {};  ///< read it without what tells whether it is whole
+  /// Read it too, and of folders of earlier versions without what tells whether it is whole.
+  std::set<Command> lookers = {};
 };
 
 const std::vector<RunFile>& run_files() {
@@ -84,7 +89,7 @@ struct Damage {
   std::string file;
   std::string what;         ///< "cut after 12 bytes"
   std::string content;      ///< of the file
-  bool is_harmful = false;  ///< whoever reads it must say so
+  bool is_harmful = false;  ///< whoever reads it must say so, without digests too
 };
 
 std::string read_bytes(const fs::path& file) {
@@ -176,6 +181,9 @@ double peak_memory_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
+/// What a folder tells of its files: earlier versions wrote no digests.
+enum class Kind { kWithDigests, kOfEarlierVersion };
+
 /// Two runs of two drives through one place, with loops, reference and all files that a run may
 /// have; made once.
 class DamagedRunFolders : public ::testing::Test {
@@ -188,10 +196,13 @@ class DamagedRunFolders : public ::testing::Test {
           fmt::format("simulate town_short --sensor vlp16 --first 40 --duration 2 {} -o {}.rawlog",
                       options, path(name)));
       ASSERT_EQ(made.status, 0) << made.messages;
-      const auto run = run_program(fmt::format(
-          "run {0}.rawlog -o {0} --set slam.gnss.use=false --no-report --no-hash", path(name)));
+      const auto run =
+          run_program(fmt::format("run {0}.rawlog -o {0} --set slam.gnss.use=false --no-report "
+                                  "--no-hash --recording name={1}",
+                                  path(name), name));
       ASSERT_EQ(run.status, 0) << run.messages;
       add_what_a_short_run_lacks({path(name)});
+      make_like_an_earlier_version(name);
     }
   }
   static void TearDownTestSuite() { delete folder_; }
@@ -212,13 +223,51 @@ class DamagedRunFolders : public ::testing::Test {
     }
     slam::write_loops(folder.loops(), loops);
     loam::FactorBench bench;
-    bench.recording = "drive";
+    bench.recording = folder.path.filename();
     for (const auto& [name, derivative] : optimization::kDerivativeNames) {
       bench.evaluations.push_back({"line vector", derivative, 100, {5, 4, 6}});
       bench.solves.push_back({{"line vector", "plane signed"}, derivative, 4, {1, 1, 2}, 0, 0});
     }
     files::write_text(folder.factor_bench(), loam::to_json(bench));
     mapping::write_map_origin(folder.origin(), {48.1, 11.5, 500});
+    add_to_record(folder);
+  }
+
+  /// As if the run had written these files too.
+  static void add_to_record(const pipeline::RunFolder& folder) {
+    Json record = record_without_seal(folder);
+    std::vector<pipeline::FileDigest> digests;
+    pipeline::add_digests(folder, digests);
+    for (const auto& file : digests) {
+      record["files"][file.name] = {{"bytes", file.bytes}, {"sha256", file.sha256}};
+    }
+    files::write_text(folder.record(), files::sealed_json(record.dump(1) + "\n"));
+  }
+
+  static void make_like_an_earlier_version(const std::string& name) {
+    const pipeline::RunFolder folder{path(name)};
+    const pipeline::RunFolder earlier{path(base(name, Kind::kOfEarlierVersion))};
+    fs::create_directory(earlier.path);
+    for (const auto& entry : fs::directory_iterator(folder.path)) {
+      fs::create_hard_link(entry.path(), earlier.path / entry.path().filename());
+    }
+    Json record = record_without_seal(folder);
+    record.erase("files");
+    files::write_text(earlier.record(), record.dump(1) + "\n");
+    Json bench = Json::parse(read_bytes(folder.factor_bench()));
+    bench.erase(std::string(files::kSealKey));
+    files::write_text(earlier.factor_bench(), bench.dump(1) + "\n");
+  }
+
+  static Json record_without_seal(const pipeline::RunFolder& folder) {
+    Json record = Json::parse(read_bytes(folder.record()));
+    record.erase(std::string(files::kSealKey));
+    return record;
+  }
+
+  /// The name of the folder that holds the run.
+  static std::string base(const std::string& run, Kind kind) {
+    return kind == Kind::kWithDigests ? run : "earlier-" + run;
   }
 
   static geometry::Stamp nearest(const geometry::Trajectory& path, geometry::Stamp stamp) {
@@ -232,14 +281,29 @@ class DamagedRunFolders : public ::testing::Test {
     return best;
   }
 
+  static const RunFile& file_of(const Damage& damage) {
+    return *std::find_if(run_files().begin(), run_files().end(),
+                         [&](const RunFile& one) { return one.name == damage.file; });
+  }
+
+  static void expect_to_help(const std::string& message, const Damage& damage,
+                             const pipeline::RunFolder& folder) {
+    EXPECT_THAT(message, HasSubstr(damage.file));
+    EXPECT_THAT(message, HasSubstr(folder.path.string()));
+    EXPECT_THAT(message, HasSubstr("expected"));
+    EXPECT_THAT(message, HasSubstr("traverse run"));
+    EXPECT_THAT(message, Not(HasSubstr("json.exception")));
+    EXPECT_LT(message.size(), 500U);
+  }
+
   static std::string path(const std::string& name) { return (*folder_ / name).string(); }
 
   /// A folder like that of the run, with the one file as `damage` says.
-  static pipeline::RunFolder damaged(const Damage& damage) {
+  static pipeline::RunFolder damaged(const Damage& damage, Kind kind = Kind::kWithDigests) {
     const pipeline::RunFolder folder{path("damaged")};
     fs::remove_all(folder.path);
     fs::create_directory(folder.path);
-    for (const auto& entry : fs::directory_iterator(path("run"))) {
+    for (const auto& entry : fs::directory_iterator(path(base("run", kind)))) {
       const fs::path name = entry.path().filename();
       if (name != damage.file) fs::create_hard_link(entry.path(), folder.path / name);
     }
@@ -293,21 +357,22 @@ class DamagedRunFolders : public ::testing::Test {
     return {};
   }
 
-  static std::vector<Damage> damages() {
+  static std::vector<Damage> damages(Kind kind) {
     std::vector<Damage> list;
     for (const RunFile& file : run_files()) {
-      const std::string bytes = read_bytes(path("run") + "/" + file.name);
+      const std::string bytes = read_bytes(path(base("run", kind)) + "/" + file.name);
       EXPECT_FALSE(bytes.empty()) << file.name;
       add_cuts(file.name, bytes, list);
-      list.push_back({file.name, "another run's", read_bytes(path("other") + "/" + file.name)});
-      const std::string kind = fs::path(file.name).extension();
-      if (kind == ".ply") {
+      const std::string others = read_bytes(path(base("other", kind)) + "/" + file.name);
+      if (others != bytes) list.push_back({file.name, "another run's", others});
+      const std::string ending = fs::path(file.name).extension();
+      if (ending == ".ply") {
         add_floats(file.name, bytes, list);
-      } else if (kind != ".simplemap") {
+      } else if (ending != ".simplemap") {
         add_numbers(file.name, bytes, list);
       }
     }
-    const std::string record = read_bytes(path("run") + "/run.json");
+    const std::string record = read_bytes(path(base("run", kind)) + "/run.json");
     list.push_back({"run.json", "a setting nested 10^6 deep", nested_setting(record), true});
     return list;
   }
@@ -318,22 +383,42 @@ class DamagedRunFolders : public ::testing::Test {
 
 TEST_F(DamagedRunFolders, WholeOnesAreRead) {
   for (const auto& [command, name] : kCommands) {
-    EXPECT_EQ(message_of(command, {path("run")}), "") << name;
-    EXPECT_EQ(message_of(command, {path("other")}), "") << name;
+    for (const char* run : {"run", "other"}) {
+      if (command == Command::kCompare && run == std::string("other")) continue;  // another drive
+      EXPECT_EQ(message_of(command, {path(run)}), "") << name;
+      EXPECT_EQ(message_of(command, {path(base(run, Kind::kOfEarlierVersion))}), "") << name;
+    }
   }
 }
 
-TEST_F(DamagedRunFolders, EveryCommandNamesTheFileOrDoesItsWork) {
-  const std::vector<Damage> list = damages();
-  ASSERT_GE(list.size(), 100U);
+TEST_F(DamagedRunFolders, EveryCommandNamesTheFileThatItReads) {
+  const std::vector<Damage> list = damages(Kind::kWithDigests);
+  ASSERT_GE(list.size(), 200U);
+  std::size_t told = 0;
+  const double before_mb = peak_memory_mb();
+  for (const Damage& damage : list) {
+    const pipeline::RunFolder folder = damaged(damage);
+    const RunFile& file = file_of(damage);
+    for (const auto& [command, name] : kCommands) {
+      if (!file.readers.contains(command) && !file.lookers.contains(command)) continue;
+      SCOPED_TRACE(fmt::format("{}, {}: {}", damage.file, damage.what, name));
+      expect_to_help(message_of(command, folder), damage, folder);
+      ++told;
+    }
+  }
+  fmt::print("{} folders, {} messages, {:.0f} MB more memory\n", list.size(), told,
+             peak_memory_mb() - before_mb);
+}
+
+TEST_F(DamagedRunFolders, OfEarlierVersionsEveryCommandNamesTheFileOrDoesItsWork) {
+  const std::vector<Damage> list = damages(Kind::kOfEarlierVersion);
+  ASSERT_GE(list.size(), 200U);
   std::size_t told = 0;
   std::size_t unseen = 0;
   const double before_mb = peak_memory_mb();
   for (const Damage& damage : list) {
-    const pipeline::RunFolder folder = damaged(damage);
-    const RunFile& file =
-        *std::find_if(run_files().begin(), run_files().end(),
-                      [&](const RunFile& one) { return one.name == damage.file; });
+    const pipeline::RunFolder folder = damaged(damage, Kind::kOfEarlierVersion);
+    const RunFile& file = file_of(damage);
     const std::size_t told_before = told;
     for (const auto& [command, name] : kCommands) {
       const bool needs = file.readers.contains(command);
@@ -343,17 +428,9 @@ TEST_F(DamagedRunFolders, EveryCommandNamesTheFileOrDoesItsWork) {
       EXPECT_FALSE(needs && damage.is_harmful && message.empty()) << "it needs the file";
       if (message.empty()) continue;
       ++told;
-      EXPECT_THAT(message, HasSubstr(damage.file));
-      EXPECT_THAT(message, HasSubstr(folder.path.string()));
-      EXPECT_THAT(message, HasSubstr("expected"));
-      EXPECT_THAT(message, HasSubstr("traverse run"));
-      EXPECT_THAT(message, Not(HasSubstr("json.exception")));
-      EXPECT_LT(message.size(), 500U);
+      expect_to_help(message, damage, folder);
     }
-    if (told == told_before) {
-      ++unseen;
-      fmt::print("read all the same: {}, {}\n", damage.file, damage.what);
-    }
+    if (told == told_before) ++unseen;
   }
   fmt::print("{} folders, {} messages, {} read all the same, {:.0f} MB more memory\n", list.size(),
              told, unseen, peak_memory_mb() - before_mb);
@@ -369,12 +446,35 @@ TEST_F(DamagedRunFolders, AFileThatACommandDoesNotNeedDoesNotStopIt) {
   }
 }
 
+TEST_F(DamagedRunFolders, EveryProgramEndsWithTheMessage) {
+  const std::string simulated = path("run") + ".rawlog";
+  for (const auto& [file, arguments] : std::vector<std::pair<std::string, std::string>>{
+           {"map.ply", "report {0} --no-pictures"},
+           {"evaluation.json", "compare {1} {0} -o {2}.html"},
+           {"trajectory.tum", "evaluate {0}"},
+           {"reference.tum", "evaluate {0}"},
+           {"keyframes.simplemap", "map {0} -o {2}"},
+           {"keyframes.simplemap", "localize {3} --map {0} -o {2}"},
+           {"run.json", "report {0} --no-pictures"}}) {
+    std::string bytes = read_bytes(path("run") + "/" + file);
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+    const pipeline::RunFolder folder = damaged({file, "a bit flipped", bytes});
+    const auto result = run_program(fmt::format(fmt::runtime(arguments), folder.path.string(),
+                                                path("run"), path("result"), simulated));
+    SCOPED_TRACE(arguments);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.messages, HasSubstr("traverse: " + (folder.path / file).string()));
+    EXPECT_FALSE(fs::exists(path("result"))) << "nothing was made of it";
+    EXPECT_FALSE(fs::exists(path("result.html")));
+  }
+}
+
 TEST_F(DamagedRunFolders, WhatIsReadAllTheSameCanBeDrawn) {
   const std::set<std::string> drawn{"evaluation.json", "frames.csv", "loops.csv",
                                     "map.ply",         "scan.ply",   "worst_frames.ply"};
-  for (const Damage& damage : damages()) {
+  for (const Damage& damage : damages(Kind::kOfEarlierVersion)) {
     if (!drawn.contains(damage.file)) continue;
-    const pipeline::RunFolder folder = damaged(damage);
+    const pipeline::RunFolder folder = damaged(damage, Kind::kOfEarlierVersion);
     if (!message_of(Command::kReport, folder).empty()) continue;
     SCOPED_TRACE(damage.file + ", " + damage.what);
     EXPECT_NO_THROW(read(Command::kReport, folder, true));

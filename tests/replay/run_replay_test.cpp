@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <filesystem>
+#include <variant>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/pipeline/run.hpp"
 #include "traverse/replay/recording.hpp"
@@ -78,6 +81,60 @@ TEST_F(RunReplay, FindsARecordingThatWasMoved) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("--moved-to"));
   }
   EXPECT_EQ(open(elsewhere).info().path, elsewhere);
+}
+
+TEST_F(RunReplay, FindsARecordingThatMovedAlong) {
+  std::filesystem::create_directory(parent_ / "elsewhere");
+  for (const char* name :
+       {"street.rawlog", "street.traverse.yaml", "street.reference.tum", "run"}) {
+    std::filesystem::rename(parent_ / name, parent_ / "elsewhere" / name);
+  }
+  const Recording run = Recording::open(parent_ / "elsewhere/run", testing::open_options());
+  EXPECT_EQ(run.info().path, parent_ / "elsewhere/street.rawlog");
+  EXPECT_EQ(run.make_pipeline({}, 1).name, "traverse (as run)");
+}
+
+/// A run that was made in a folder from relative paths, its statements in a file there, its preset
+/// the user's own, its reference named on the command line.
+TEST_F(RunReplay, HoldsFromAnyFolder) {
+  const std::filesystem::path here = std::filesystem::current_path();
+  std::filesystem::current_path(parent_.path());
+  files::write_text("stated.yaml", "name: stated\nreference: {file: truth.tum, format: tum}\n");
+  std::filesystem::rename("street.reference.tum", "truth.tum");
+  std::filesystem::copy_file(TRAVERSE_SHARE_DIR "/pipelines/floam.yaml", "own.yaml");
+  dataset::OpenOptions options = testing::open_options();
+  options.statements_file = "stated.yaml";
+  options.statements = {"lidar.max_range_m=70"};
+  const Recording recording = Recording::open("street.rawlog", options);
+  pipeline::PresetRequest request;
+  request.name = "own.yaml";
+  request.assignments = {"solver.huber_m=0.07"};
+  pipeline::Pipeline pipeline = recording.make_pipeline(request, 1);
+  pipeline::RunOptions run_options;
+  run_options.hash_recording = false;
+  run_options.statements = dataset::lasting_statements("street.rawlog", options);
+  const auto source = recording.source();
+  const auto record = pipeline::run(*source, pipeline, {"second"}, run_options, {});
+  ASSERT_EQ(record.status, pipeline::RunStatus::kOk) << record.reason;
+  std::filesystem::remove("own.yaml");
+  std::filesystem::remove("stated.yaml");
+  std::filesystem::remove("truth.tum");
+  std::filesystem::current_path("/");
+
+  const Recording run =
+      Recording::open((parent_ / "second").lexically_relative("/"), testing::open_options());
+  EXPECT_EQ(run.info().path, parent_ / "street.rawlog");
+  EXPECT_EQ(run.info().name, "stated");
+  EXPECT_EQ(run.info().rig.first(sensors::SensorKind::kLidar)->lidar->max_range_m, 70);
+  ASSERT_TRUE(run.reference()) << "the run has it";
+  const pipeline::Pipeline replayed = run.make_pipeline({}, 1);
+  EXPECT_EQ(replayed.name, "own (as run)");
+  const auto huber =
+      std::find_if(replayed.settings.begin(), replayed.settings.end(),
+                   [](const auto& resolved) { return resolved.setting.path == "solver.huber_m"; });
+  ASSERT_NE(huber, replayed.settings.end());
+  EXPECT_EQ(std::get<double>(huber->setting.value), 0.07);
+  std::filesystem::current_path(here);
 }
 
 }  // namespace

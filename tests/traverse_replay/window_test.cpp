@@ -7,6 +7,8 @@
 
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/text_file.hpp"
+#include "traverse/pipeline/run.hpp"
+#include "traverse/replay/recording.hpp"
 
 #include "replay/simulated_rawlog.hpp"
 #include "temporary_folder.hpp"
@@ -213,6 +215,35 @@ TEST_F(WindowTest, OpensARecordingThatIsCutOff) {
                           "cut.rawlog --headless --script script --no-index-cache");
   EXPECT_EQ(program.exit_status(), 0) << program.messages();
   EXPECT_TRUE(fs::exists(folder_ / "end.png"));
+}
+
+TEST_F(WindowTest, ShowsARunButNotOneThatWasChanged) {
+  const pipeline::RunFolder run{folder_ / "run"};
+  const auto recording =
+      replay::Recording::open(*shared_ / "street.rawlog", testing::open_options());
+  const auto source = recording.source();
+  pipeline::Pipeline pipeline = recording.make_pipeline({}, 1);
+  pipeline::RunOptions options;
+  options.last = 5;
+  ASSERT_EQ(pipeline::run(*source, pipeline, run, options, {}).status, pipeline::RunStatus::kOk);
+  files::write_text(folder_ / "script", "end\nsettle\nexpect-frame 5\n");
+  WindowedProgram program(*screen_, folder_.path(),
+                          "run --headless --script script --no-index-cache");
+  EXPECT_EQ(program.exit_status(), 0) << program.messages();
+
+  for (const fs::path& file : {run.trajectory(), run.frames(), run.reference(), run.record()}) {
+    const std::string bytes = files::read_text(file);
+    std::string changed = bytes;
+    const std::size_t digit = changed.find_last_of("0123456789");
+    changed[digit] = changed[digit] == '1' ? '2' : '1';
+    files::write_text(file, changed);
+    WindowedProgram refusing(*screen_, folder_.path(),
+                             "run --headless --script script --no-index-cache");
+    EXPECT_EQ(refusing.exit_status(), 1) << file;
+    EXPECT_THAT(refusing.messages(), HasSubstr("run/" + file.filename().string()));
+    EXPECT_THAT(refusing.messages(), HasSubstr("edited"));
+    files::write_text(file, bytes);
+  }
 }
 
 TEST_F(WindowTest, AForeignFileGetsAMessage) {

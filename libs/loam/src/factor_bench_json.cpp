@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "traverse/files/json_document.hpp"
+#include "traverse/files/sealed_json.hpp"
 #include "traverse/loam/factor_bench.hpp"
 
 namespace traverse::loam {
@@ -77,7 +78,7 @@ std::string to_json(const FactorBench& bench) {
                   {"lines", bench.lines},         {"planes", bench.planes},
                   {"repeats", bench.repeats},     {"evaluations", std::move(evaluations)},
                   {"solves", std::move(solves)}};
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return files::sealed_json(json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace traverse::loam

@@ -100,6 +100,7 @@ void require_configuration(const JsonValue& configuration) {
 void require_recording(const JsonValue& recording) {
   require_texts(recording, {"path", "name", "format"});
   static_cast<void>(recording["bytes"].count());
+  if (recording.has("statements")) static_cast<void>(recording["statements"].texts());
   if (!recording["sha256"].is_null()) require_texts(recording, {"sha256"});
   for_each_element(recording["sensors"], [](const JsonValue& sensor) {
     require_texts(sensor, {"label", "kind"});

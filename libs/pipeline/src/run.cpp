@@ -245,6 +245,8 @@ RunRecord begin_record(const dataset::Source& source, const Pipeline& pipeline,
   record.estimator_kind = pipeline.estimator_kind;
   record.settings = pipeline.settings;
   record.threads = options.threads;
+  record.statements = options.statements;
+  record.is_private = options.is_private;
   record.recording = source.info();
   record.first_frame = options.first;
   record.points_are = pipeline.estimator->points_are();
@@ -277,6 +279,7 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
   const auto started = std::chrono::steady_clock::now();
   Estimator& estimator = *pipeline.estimator;
   RunRecord record = begin_record(source, pipeline, options);
+  record.place = options.place.empty() ? folder.path : options.place;
   folder.prepare();
   Steps attempt;
   std::optional<RunResults> results;
@@ -300,6 +303,7 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
     observer.stage("evaluation");
     attempt([&] { evaluate_run(source, estimator, *results, readings, folder, record); });
     attempt([&] { check_jacobians(estimator, folder); });
+    attempt([&] { add_digests(folder, record.files); });
     stopped = is_stopped(observer);
     if (options.hash_recording && !stopped && !attempt.has_failed()) {
       observer.stage("digest of the recording");

@@ -10,8 +10,10 @@
 #include "traverse/evaluation/json.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/json_document.hpp"
+#include "traverse/files/sealed_json.hpp"
 #include "traverse/files/text_file.hpp"
 
+#include "digest_check.hpp"
 #include "evaluation_check.hpp"
 #include "frames_check.hpp"
 #include "next_step.hpp"
@@ -89,8 +91,10 @@ void require_loops(const RunContents& run) {
   }
 }
 
-void read_frame_files(RunContents& run, RunPart part) {
+/// Reads run.json, frames.csv and trajectory.tum. \returns what the other files are held against
+DigestCheck read_frame_files(RunContents& run, RunPart part) {
   run.record_json = files::read_text(run.folder.record());
+  DigestCheck digests(run.folder, run.record_json);
   const auto document = files::JsonDocument::parse(run.record_json, run.folder.record());
   const files::JsonValue record = document.root();
   require_run_record(record);
@@ -99,13 +103,20 @@ void read_frame_files(RunContents& run, RunPart part) {
       !fs::exists(run.folder.trajectory())) {
     throw record["status"].error("a run that has results", "failed: " + record["reason"].text());
   }
+  digests.require(run.folder.trajectory());
+  digests.require(run.folder.frames());
   run.estimate = read_path(run.folder.trajectory());
   run.frames = FrameTable::read_csv(run.folder.frames());
   require_frames(run.frames, run.estimate, record, run.folder);
+  return digests;
 }
 
-void read_figure_files(RunContents& run) {
+void read_figure_files(RunContents& run, const DigestCheck& digests) {
   const RunFolder& folder = run.folder;
+  for (const fs::path& file :
+       {folder.evaluation(), folder.loops(), folder.odometry(), folder.odometry_evaluation()}) {
+    digests.require(file);
+  }
   run.evaluation = evaluation::read_evaluation(folder.evaluation());
   require_evaluation(run.evaluation, folder.evaluation(), run.estimate, folder.trajectory(),
                      run.reference);
@@ -150,8 +161,27 @@ void require_points(const dataset::PointCloud& cloud, const fs::path& file) {
   if (cloud.size() == 0) throw InputError(file, Place::whole_file(), "at least one point", "none");
 }
 
-void read_other_files(RunContents& run) {
+/// What the derivatives cost: measured on a frame of the run's recording, when it was made or
+/// later.
+loam::FactorBench read_factor_bench(const fs::path& file, const files::JsonValue& record) {
+  const std::string text = files::read_text(file);
+  files::require_seal(text, file);
+  const auto document = files::JsonDocument::parse(text, file);
+  loam::FactorBench bench = loam::factor_bench_from_json(document.root());
+  const std::string recording = record["recording"]["name"].text();
+  if (bench.recording != recording) {
+    throw document.root()["recording"].error("the recording of the run, " +
+                                             files::in_quotes(recording));
+  }
+  return bench;
+}
+
+void read_other_files(RunContents& run, const DigestCheck& digests) {
   const RunFolder& folder = run.folder;
+  for (const fs::path& file :
+       {folder.map_points(), folder.sample_scan(), folder.worst_frames(), folder.jacobians()}) {
+    digests.require(file);
+  }
   const files::JsonDocument record = files::JsonDocument::parse(run.record_json, folder.record());
   if (auto map = read_points(folder.map_points())) {
     require_size(*map, folder.map_points(), record.root()["map"]["points"].count());
@@ -175,8 +205,7 @@ void read_other_files(RunContents& run) {
         optimization::audit_from_json(files::JsonDocument::read(folder.jacobians()).root());
   }
   if (fs::exists(folder.factor_bench())) {
-    run.factor_bench =
-        loam::factor_bench_from_json(files::JsonDocument::read(folder.factor_bench()).root());
+    run.factor_bench = read_factor_bench(folder.factor_bench(), record.root());
   }
 }
 
@@ -186,13 +215,14 @@ RunContents read_run(const RunFolder& folder, RunPart part) {
   return with_next_step([&] {
     RunContents run;
     run.folder = folder;
-    read_frame_files(run, part);
+    const DigestCheck digests = read_frame_files(run, part);
     if (part >= RunPart::kReference && fs::exists(folder.reference())) {
+      digests.require(folder.reference());
       run.reference = read_path(folder.reference());
     }
-    if (part >= RunPart::kFigures) read_figure_files(run);
+    if (part >= RunPart::kFigures) read_figure_files(run, digests);
     run.health = health_of(run);
-    if (part >= RunPart::kAll) read_other_files(run);
+    if (part >= RunPart::kAll) read_other_files(run, digests);
     return run;
   });
 }

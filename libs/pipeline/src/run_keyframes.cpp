@@ -10,6 +10,7 @@
 #include "traverse/files/input_error.hpp"
 #include "traverse/mapping/map_origin.hpp"
 #include "traverse/pipeline/run_contents.hpp"
+#include "traverse/pipeline/run_digests.hpp"
 
 #include "next_step.hpp"
 
@@ -39,10 +40,19 @@ const geometry::Pose3* pose_of(const KeyframePlace& keyframe, const geometry::Tr
   return &path.pose(static_cast<std::size_t>(found - stamps.begin()));
 }
 
+/// Somebody's own map may lie beside the run's.
+bool is_of_run(const RunFolder& folder, const fs::path& file) {
+  const auto names = folder.files();
+  return std::any_of(names.begin(), names.end(),
+                     [&](const fs::path& own) { return own.filename() == file.filename(); });
+}
+
 /// What `read` gives of a file; the next step is told where a run wrote it.
 template <typename Read>
 auto read_of_run(const fs::path& file, const Read& read) {
-  if (!fs::exists(RunFolder{file.parent_path()}.record())) return read(file);
+  const RunFolder folder{file.parent_path()};
+  if (!fs::exists(folder.record())) return read(file);
+  if (is_of_run(folder, file)) require_as_written(folder, {file});
   return with_next_step([&] { return read(file); });
 }
 

@@ -10,7 +10,10 @@
 
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/digest.hpp"
+#include "traverse/files/sealed_json.hpp"
 #include "traverse/pipeline/frame_table.hpp"
+#include "traverse/pipeline/privacy.hpp"
+#include "traverse/pipeline/recording_place.hpp"
 #include "traverse/pipeline/run_folder.hpp"
 #include "traverse/statistics/quantile.hpp"
 
@@ -55,7 +58,7 @@ Json to_json(const std::vector<ResolvedSetting>& settings) {
   return list;
 }
 
-Json to_json(const dataset::RecordingInfo& info) {
+Json to_json(const dataset::RecordingInfo& info, const std::filesystem::path& run_folder) {
   Json facts = Json::array();
   for (const dataset::Fact& fact : info.facts) {
     facts.push_back({{"name", fact.name}, {"value", fact.value}, {"reason", fact.reason}});
@@ -69,9 +72,16 @@ Json to_json(const dataset::RecordingInfo& info) {
     if (sensor.lidar) entry["profile"] = sensor.lidar->name;
     sensors.push_back(std::move(entry));
   }
-  return {{"path", info.path.string()},    {"name", info.name},
-          {"format", info.format},         {"motion_compensated", info.motion_compensated},
-          {"sensors", std::move(sensors)}, {"facts", std::move(facts)}};
+  const RecordingPlace place = recording_place(info.path, run_folder);
+  Json json{{"path", place.path.string()},
+            {"path_from_run", nullptr},
+            {"name", info.name},
+            {"format", info.format},
+            {"motion_compensated", info.motion_compensated},
+            {"sensors", std::move(sensors)},
+            {"facts", std::move(facts)}};
+  if (!run_folder.empty()) json["path_from_run"] = place.from_run.string();
+  return json;
 }
 
 Json to_json(const dataset::SkippedRecords& skipped) {
@@ -80,6 +90,14 @@ Json to_json(const dataset::SkippedRecords& skipped) {
     by_reason[reason] = {{"count", count.count}, {"first", count.first_places}};
   }
   return by_reason;
+}
+
+Json to_json(const std::vector<FileDigest>& files) {
+  Json by_name = Json::object();
+  for (const FileDigest& file : files) {
+    by_name[file.name] = {{"bytes", file.bytes}, {"sha256", file.sha256}};
+  }
+  return by_name;
 }
 
 Json timing(const RunRecord& record) {
@@ -173,9 +191,11 @@ std::string to_json(const RunRecord& record, const BuildInfo& build, const HostI
                                   : Json(record.recording.refused_reference);
   json["evaluation_error"] =
       record.evaluation_error.empty() ? Json(nullptr) : Json(record.evaluation_error);
-  json["configuration"] = {{"sha256", configuration_sha256(record.settings)},
+  json["configuration"] = {{"estimator", record.estimator_kind},
+                           {"sha256", configuration_sha256(record.settings)},
                            {"settings", to_json(record.settings)}};
-  json["recording"] = to_json(record.recording);
+  json["recording"] = to_json(record.recording, record.place);
+  json["recording"]["statements"] = record.statements;
   json["recording"]["bytes"] = record.recording_bytes;
   json["recording"]["sha256"] =
       record.recording_sha256.empty() ? Json(nullptr) : Json(record.recording_sha256);
@@ -190,6 +210,7 @@ std::string to_json(const RunRecord& record, const BuildInfo& build, const HostI
                   {"cpu", host.cpu},
                   {"logical_cpus", host.logical_cpus},
                   {"memory_gb", host.memory_gb}};
+  if (!record.files.empty()) json["files"] = to_json(record.files);
   json["started_utc"] = record.started_utc;
   json["wall_seconds"] = record.wall_seconds;
   json["peak_memory_mb"] = record.peak_memory_mb;
@@ -197,7 +218,10 @@ std::string to_json(const RunRecord& record, const BuildInfo& build, const HostI
 }
 
 void write_record(const RunFolder& folder, const RunRecord& record) {
-  files::write_text(folder.record(), to_json(record, build_info(), host_info()));
+  const std::string json = to_json(record, build_info(), host_info());
+  files::write_text(
+      folder.record(),
+      files::sealed_json(record.is_private ? Privacy(record.place).record(json) : json));
 }
 
 }  // namespace traverse::pipeline

@@ -16,12 +16,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The statements about the recording on a run's command line, which hold for its replay too.
-void add_statements(const std::vector<std::string>& command, dataset::OpenOptions& options) {
-  for (std::size_t i = 0; i + 1 < command.size(); ++i) {
-    if (command[i] == "--recording") options.statements.push_back(command[i + 1]);
+/// What was stated about the recording of a run holds for its replay too. The reference does not:
+/// the run has it, and its file may be gone.
+void add_statements(const RunFacts& facts, dataset::OpenOptions& options) {
+  std::vector<std::string> statements;
+  if (facts.statements) {
+    for (const std::string& statement : *facts.statements) {
+      if (!statement.starts_with("reference.")) statements.push_back(statement);
+    }
+  }
+  const std::vector<std::string>& command = facts.command;
+  for (std::size_t i = 0; !facts.statements && i + 1 < command.size(); ++i) {
+    if (command[i] == "--recording") statements.push_back(command[i + 1]);
     if (command[i] == "--recording-config") options.statements_file = command[i + 1];
   }
+  options.statements.insert(options.statements.begin(), statements.begin(), statements.end());
 }
 
 }  // namespace
@@ -39,7 +48,7 @@ Recording Recording::open(const fs::path& file_or_run, const dataset::OpenOption
     const RunFacts& facts = recording.run_->facts;
     recording.path_ = moved_to.empty() ? facts.recording : moved_to;
     recording.max_frames_ = facts.first_frame + facts.frames;
-    add_statements(facts.command, recording.options_);
+    add_statements(facts, recording.options_);
     if (!fs::exists(recording.path_)) {
       throw files::InputError(folder.record(), files::Place::key("recording.path"),
                               "the recording of the run where it was (--moved-to says where it is "
@@ -85,7 +94,7 @@ pipeline::Pipeline Recording::make_pipeline(const pipeline::PresetRequest& reque
 
 pipeline::Pipeline Recording::pipeline_of_run(const Run& run, int threads) const {
   try {
-    const auto preset = pipeline::load_preset(run.facts.preset, options_.share_folder);
+    const auto preset = preset_of_run(run.facts, options_.share_folder);
     return pipeline::make_pipeline(preset, info_, threads);
   } catch (const files::InputError& error) {
     throw files::InputError(

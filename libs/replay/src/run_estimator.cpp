@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "traverse/files/json_document.hpp"
+#include "traverse/pipeline/recording_place.hpp"
 
 namespace traverse::replay {
 
@@ -69,23 +70,61 @@ void fill_velocities(std::vector<PoseFrame>& frames) {
   }
 }
 
+/// The odometry of an estimator that followed it in a map ("localize_voxel_map").
+std::string odometry_of(const std::string& estimator) {
+  constexpr std::string_view kLocalize = "localize_";
+  return estimator.starts_with(kLocalize) ? estimator.substr(kLocalize.size()) : estimator;
+}
+
+void add_settings(const files::JsonValue& record, RunFacts& facts) {
+  const files::JsonValue configuration = record["configuration"];
+  const bool is_complete = configuration.has("estimator");
+  std::vector<std::string> assignments;
+  if (is_complete) {
+    assignments = {"estimator=" + odometry_of(configuration["estimator"].text()),
+                   "description=" + record["pipeline_description"].json_text()};
+  }
+  const files::JsonValue settings = configuration["settings"];
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    const files::JsonValue setting = settings[i];
+    if (!is_complete && !setting["changed"].boolean()) continue;
+    // Where in a map the drive was is in its poses: the map itself may have gone elsewhere.
+    if (is_of_localization(setting["key"].text())) continue;
+    assignments.push_back(setting["key"].text() + "=" + setting["value"].json_text());
+  }
+  if (is_complete) {
+    facts.settings = std::move(assignments);
+  } else {
+    facts.preset = pipeline::PresetRequest{facts.pipeline, {}, std::move(assignments)};
+  }
+}
+
 }  // namespace
+
+pipeline::Preset preset_of_run(const RunFacts& facts, const std::filesystem::path& share_folder) {
+  if (facts.preset) return pipeline::load_preset(*facts.preset, share_folder);
+  pipeline::Preset preset;
+  preset.name = facts.pipeline;
+  preset.file = "run.json";
+  for (config::Document* document : {&preset.as_shipped, &preset.resolved}) {
+    for (const std::string& setting : facts.settings) document->set(setting, "run.json");
+  }
+  return preset;
+}
 
 RunFacts run_facts(const pipeline::RunContents& run) {
   const auto document = files::JsonDocument::parse(run.record_json, run.folder.record());
   const files::JsonValue record = document.root();
   RunFacts facts;
-  facts.recording = record["recording"]["path"].text();
+  facts.recording = pipeline::find_recording(run.folder, record);
+  if (record["recording"].has("statements")) {
+    facts.statements = record["recording"]["statements"].texts();
+  }
   facts.command = record["command"].texts();
   facts.first_frame = record["frames"]["first"].count();
   facts.frames = run.frames.rows().size();
-  facts.preset.name = record["pipeline"].text();
-  const files::JsonValue settings = record["configuration"]["settings"];
-  for (std::size_t i = 0; i < settings.size(); ++i) {
-    const files::JsonValue setting = settings[i];
-    if (!setting["changed"].boolean() || is_of_localization(setting["key"].text())) continue;
-    facts.preset.assignments.push_back(setting["key"].text() + "=" + setting["value"].json_text());
-  }
+  facts.pipeline = record["pipeline"].text();
+  add_settings(record, facts);
   return facts;
 }
 

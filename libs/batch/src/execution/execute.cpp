@@ -21,8 +21,11 @@
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/json_document.hpp"
 #include "traverse/files/numbers.hpp"
+#include "traverse/files/text_file.hpp"
 #include "traverse/files/unfinished.hpp"
+#include "traverse/pipeline/privacy.hpp"
 #include "traverse/pipeline/provenance.hpp"
+#include "traverse/pipeline/recording_place.hpp"
 #include "traverse/pipeline/run_destination.hpp"
 #include "traverse/pipeline/run_folder.hpp"
 
@@ -190,6 +193,13 @@ void take_out_of_its_folder(const fs::path& work) {
   fs::remove_all(pipeline::RunDestination::work_folder(work / kRunOutput), failure);
 }
 
+/// The program's messages name what it worked on.
+void make_private(const fs::path& log, const pipeline::Privacy& privacy, Completion& completion) {
+  files::write_text(log, privacy.text(files::read_text(log)));
+  completion.last_lines = privacy.texts(completion.last_lines);
+  completion.reason = privacy.text(completion.reason);
+}
+
 Completion finish(const fs::path& work, const Job& job, const ProcessEnd& end, bool memory_ran_out,
                   Completion completion, const BatchFolder& folder) {
   completion.exit_status = end.exit_status;
@@ -198,9 +208,13 @@ Completion finish(const fs::path& work, const Job& job, const ProcessEnd& end, b
   completion.cpu_s = end.cpu_s;
   completion.peak_memory_mb = end.peak_memory_mb;
   take_out_of_its_folder(work);
+  pipeline::retell_place({work}, work / kRunOutput, folder.run(job.id));
   completion.last_lines = last_lines(work / "log.txt");
   judge(job, end, status_of(work), memory_ran_out, completion);
   if (is_usable(completion.outcome)) completion.last_lines.clear();
+  if (job.is_private()) {
+    make_private(work / "log.txt", pipeline::Privacy(folder.run(job.id)), completion);
+  }
   add_results(work, completion);
   files::write_text(work / "result.json", to_json(completion));
   return publish(work, job, completion, folder);
@@ -238,7 +252,7 @@ std::optional<Completion> execute(const Job& job, const ExecutionContext& contex
   completion.id = job.id;
   completion.identity = job.identity;
   completion.limits = job.limits;
-  completion.host = host_name();
+  if (!job.is_private()) completion.host = host_name();
   for (int attempt = 1;; ++attempt) {
     begin_empty(work);
     completion.attempts = attempt;

@@ -1,5 +1,6 @@
 #include "traverse/batch/job.hpp"
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -23,6 +24,8 @@ namespace traverse::batch {
 namespace {
 
 using nlohmann::json;
+
+constexpr const char* kPrivate = "--private";
 
 /// A pipeline at a point of its grid, and the digest of all its settings.
 struct Variant {
@@ -79,6 +82,7 @@ std::vector<std::string> run_arguments(const Plan& plan, const PlannedRecording&
   add("--threads", std::to_string(plan.limits.threads));
   words.emplace_back("--no-hash");  // the batch has digested each recording, once
   if (!plan.reports) words.emplace_back("--no-report");
+  if (plan.is_private) words.emplace_back(kPrivate);
   return words;
 }
 
@@ -91,6 +95,7 @@ std::string identity_of(const Plan& plan, const PlannedRecording& recording,
       program, recording_sha256, fmt::join(statements_about(recording, variant), "; "),
       recording.reference_frame, recording.first, recording.last, variant.estimator,
       variant.configuration_sha256, plan.limits.threads, plan.reports);
+  if (plan.is_private) text += "private\n";  // a run that tells more does not serve
   return text + fmt::format("repeat {}\n", repeat);
 }
 
@@ -125,6 +130,10 @@ Job job_of(const files::JsonValue& line) {
 }
 
 }  // namespace
+
+bool Job::is_private() const {
+  return std::find(arguments.begin(), arguments.end(), kPrivate) != arguments.end();
+}
 
 std::string Job::variant() const {
   return settings.empty() ? pipeline : fmt::format("{} {}", pipeline, fmt::join(settings, " "));

@@ -76,6 +76,7 @@ void read_settings(const Document& document, Plan& plan) {
         b.text("description", plan.description, "purpose of the batch");
         b.integer("repeats", plan.repeats, Range::between(1, 10000), "runs of each combination");
         b.flag("reports", plan.reports, "pictures and report.html of each run");
+        b.flag("private", plan.is_private, "results do not tell whose machines made them");
         b.group("limits", "of each run", [&](Binder& limits) { bind(limits, plan.limits); });
       },
       kOthers);

@@ -13,6 +13,7 @@
 #include "traverse/files/number_text.hpp"
 #include "traverse/page/html_page.hpp"
 #include "traverse/page/table.hpp"
+#include "traverse/pipeline/privacy.hpp"
 #include "traverse/pipeline/provenance.hpp"
 
 #include "results/report_data.hpp"
@@ -185,10 +186,10 @@ Data failures(const ReportData& data) {
 
 page::Table made(const ReportData& data) {
   const pipeline::BuildInfo build = pipeline::build_info();
-  const pipeline::HostInfo host = pipeline::host_info();
   page::Table table("made", "How this was made", {"what", "value"});
   const RunLimits& limits = data.plan.limits;
-  table.add_row({"plan", data.plan.file.string()});
+  table.add_row({"plan", data.plan.is_private ? data.plan.file.filename().string()
+                                              : data.plan.file.string()});
   table.add_row({"runs", describe(data.plan)});
   table.add_row({"limits of a run",
                  fmt::format("{:g} s, {}, {}", limits.time_s,
@@ -197,8 +198,11 @@ page::Table made(const ReportData& data) {
                              plural(static_cast<std::size_t>(limits.threads), "thread"))});
   table.add_row({"program", fmt::format("Traverse {}, commit {}, {}, {}", build.version,
                                         build.commit, build.build_type, build.compiler)});
-  table.add_row({"report made on",
-                 fmt::format("{}: {}, {} logical CPUs", host.name, host.cpu, host.logical_cpus)});
+  if (!data.plan.is_private) {
+    const pipeline::HostInfo host = pipeline::host_info();
+    table.add_row({"report made on",
+                   fmt::format("{}: {}, {} logical CPUs", host.name, host.cpu, host.logical_cpus)});
+  }
   return table;
 }
 
@@ -236,6 +240,10 @@ std::vector<page::Section> sections(const ReportData& data, const Counts& counts
 
 std::string batch_page(const ReportData& data, const std::filesystem::path& templates) {
   const Counts counts = count(data);
+  const pipeline::Privacy privacy(data.plan.file.parent_path());
+  const auto told = [&](const std::string& text) {
+    return data.plan.is_private ? privacy.text(text) : text;
+  };
   const std::string name = data.plan.file.stem().string();
   Data parts;
   parts.set("name", name);
@@ -247,14 +255,14 @@ std::string batch_page(const ReportData& data, const std::filesystem::path& temp
   parts.set("notices", notices(data, counts));
   parts.set("rank_title", find_metric(data.plan.metrics.front())->title);
   if (data.baseline) {
-    parts.set("baseline_source", data.baseline->source);
+    parts.set("baseline_source", told(data.baseline->source));
     parts.set("baseline_rule", kBaselineRule);
   }
   parts.set("tables", planned_tables(data));
   parts.set("failures", failures(data));
   parts.set("table_made", made(data).data());
-  parts.set("plan", data.plan.text);
-  parts.set("command", fmt::format("{}", fmt::join(data.command, " ")));
+  parts.set("plan", told(data.plan.text));
+  parts.set("command", told(fmt::format("{}", fmt::join(data.command, " "))));
 
   page::HtmlPage page;
   page.kind = "batch";

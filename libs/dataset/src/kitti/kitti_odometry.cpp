@@ -4,6 +4,7 @@
 #include "kitti/kitti_bin.hpp"
 #include "recording/folder_opening.hpp"
 #include "recording/stamp_files.hpp"
+#include "recording/unused_files.hpp"
 
 namespace traverse::dataset {
 
@@ -56,6 +57,7 @@ std::unique_ptr<Source> open_kitti_odometry(const fs::path& folder, const OpenOp
 
   set_camera(info, statements, folder / "calib.txt");
   recording.reference = choose_reference(info, statements, find_poses(folder), pose_stamps);
+  note_unused_files(info, options, recording.reference, pose_stamps.size());
   recording.read = [](const ScanFile& scan) { return read_kitti_bin(scan.file); };
   return make_folder_source(std::move(recording));
 }

@@ -9,6 +9,7 @@
 #include "kitti/oxts.hpp"
 #include "recording/folder_opening.hpp"
 #include "recording/stamp_files.hpp"
+#include "recording/unused_files.hpp"
 
 namespace traverse::dataset {
 
@@ -151,6 +152,7 @@ std::unique_ptr<Source> open_kitti_raw(const fs::path& folder, const OpenOptions
     recording.reference = oxts_reference(oxts, T_lidar_imu, folder / "oxts", info.facts);
     if (recording.reference) info.reference_receiver = kGnss;
   }
+  note_unused_files(info, options, recording.reference, info.expected_scans);
   recording.others = std::move(oxts.records);
   recording.read = [](const ScanFile& scan) { return read_kitti_bin(scan.file); };
   return make_folder_source(std::move(recording));

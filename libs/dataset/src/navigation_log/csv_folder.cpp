@@ -19,6 +19,7 @@
 #include "navigation_log/navigation_log.hpp"
 #include "recording/folder_opening.hpp"
 #include "recording/listed_source.hpp"
+#include "recording/unused_files.hpp"
 #include "recording/vehicle_statements.hpp"
 
 namespace traverse::dataset {
@@ -265,6 +266,13 @@ class CsvRecording {
   const CsvStatements& csv_;
 };
 
+std::string how_to_state(const fs::path& folder, const fs::path& share_folder) {
+  const auto fitting = fitting_statements(folder, share_folder);
+  if (fitting.empty()) return "give a file with --recording-config, see share/recordings";
+  return fmt::format("{} fits these files: --recording-config {}",
+                     fitting.front().filename().string(), fitting.front().string());
+}
+
 }  // namespace
 
 std::unique_ptr<Source> open_csv_folder(const fs::path& folder, const OpenOptions& options,
@@ -289,13 +297,14 @@ std::unique_ptr<Source> open_csv_folder(const fs::path& folder, const OpenOption
   }
   if (info.rig.sensors.empty()) {
     throw InputError(folder, Place::key("csv"), "statements that tell what the CSV files hold",
-                     "none; give a file with --recording-config, see share/recordings");
+                     "none; " + how_to_state(folder, options.share_folder));
   }
   auto reference = recording.read_reference();
   info.facts.insert(info.facts.end(), recording.facts.begin(), recording.facts.end());
   if (const auto stated = stated_reference(statements); stated && !reference) {
     reference = load_reference(*stated, {}, {}, info.facts);
   }
+  note_unused_files(info, options, reference, 0);
   return make_listed_source(std::move(info), std::move(recording.records), std::move(reference));
 }
 

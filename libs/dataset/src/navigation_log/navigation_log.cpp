@@ -18,6 +18,7 @@
 
 #include "recording/folder_opening.hpp"
 #include "recording/listed_source.hpp"
+#include "recording/unused_files.hpp"
 
 namespace traverse::dataset {
 
@@ -184,6 +185,7 @@ std::unique_ptr<Source> open_navigation_log(const fs::path& file, const OpenOpti
   if (const auto stated = stated_reference(statements)) {
     reference = load_reference(*stated, {}, {}, info.facts);
   }
+  note_unused_files(info, options, reference, 0);
   return make_listed_source(std::move(info), std::move(records), std::move(reference));
 }
 

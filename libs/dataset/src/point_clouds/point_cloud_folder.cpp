@@ -11,6 +11,7 @@
 #include "point_clouds/field_values.hpp"
 #include "recording/folder_opening.hpp"
 #include "recording/stamp_files.hpp"
+#include "recording/unused_files.hpp"
 
 namespace traverse::dataset {
 
@@ -155,6 +156,7 @@ std::unique_ptr<Source> open_point_cloud_folder(const fs::path& folder, const Op
   set_camera(info, statements, folder / "calib.txt");
   recording.reference =
       choose_reference(info, statements, std::nullopt, stamps_of(recording.scans));
+  note_unused_files(info, options, recording.reference, info.expected_scans);
   recording.read = [time](const ScanFile& scan) {
     return scan_from_cloud(read_point_cloud(scan.file), *scan.stamp, time, scan.file);
   };

@@ -13,6 +13,7 @@
 #include "recording/folder_opening.hpp"
 #include "recording/reorder_window.hpp"
 #include "recording/stamp_order.hpp"
+#include "recording/unused_files.hpp"
 
 namespace traverse::dataset {
 
@@ -67,6 +68,7 @@ class RawlogSource : public Source {
       info_.T_body_camera = lidar->T_body_sensor * *info_.T_body_camera;
     }
     reference_ = load_stated_reference(lidar);
+    note_unused_files(info_, options, reference_, 0);
     rewind();
   }
 

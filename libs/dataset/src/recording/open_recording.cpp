@@ -30,6 +30,18 @@ std::string known_formats(bool is_folder) {
   return text;
 }
 
+/// Results have clouds too, which are no scans.
+void refuse_results(const fs::path& folder) {
+  if (fs::is_regular_file(folder / "run.json") && fs::exists(folder / "trajectory.tum")) {
+    throw InputError(folder, Place::whole_file(), "a recording",
+                     "the folder of a run (run.json names its recording; `traverse info` shows "
+                     "the run)");
+  }
+  if (fs::is_regular_file(folder / "map.json") && fs::exists(folder / "map.simplemap")) {
+    throw InputError(folder, Place::whole_file(), "a recording", "a map that `traverse map` made");
+  }
+}
+
 std::string found_in_folder(const fs::path& folder) {
   return fs::is_empty(folder) ? "an empty folder" : "a folder with none of these";
 }
@@ -44,6 +56,7 @@ std::string found_in_file(const fs::path& file) {
 
 std::unique_ptr<Source> open_by_format(const fs::path& path, const OpenOptions& options) {
   const bool is_folder = fs::is_directory(path);
+  if (is_folder) refuse_results(path);
   for (const RecordingFormat& format : recording_formats()) {
     if (format.is_folder == is_folder && format.recognises(path)) {
       return format.open(path, options, format.name);

@@ -1,6 +1,7 @@
 #include "traverse/report/compare.hpp"
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -60,6 +61,21 @@ std::vector<ComparedRun> read_runs(const std::vector<fs::path>& folders) {
     require_same_recording(runs.front(), runs.back());
   }
   return runs;
+}
+
+/// Runs whose pages may not tell whose machine made them go by their folders' names alone; equal
+/// ones are numbered.
+void make_private(std::vector<ComparedRun>& runs, bool all) {
+  for (ComparedRun& run : runs) {
+    if (all || run.data.is_private()) make_private(run.data, run.data.folder.path);
+  }
+  std::map<std::string, std::size_t> times;
+  for (ComparedRun& run : runs) {
+    if (!run.data.is_private()) continue;
+    const std::string name = run.data.folder.path.string();
+    const std::size_t number = ++times[name];
+    run.name = number == 1 ? name : fmt::format("{} ({})", name, number);
+  }
 }
 
 /// All ways over the reference, light and dark, as data URIs.
@@ -165,7 +181,8 @@ std::string write_comparison(const std::vector<fs::path>& folders, const fs::pat
   fs::path numbers = page;
   numbers.replace_extension(".json");
   require_own(page, numbers);
-  const std::vector<ComparedRun> runs = read_runs(folders);
+  std::vector<ComparedRun> runs = read_runs(folders);
+  make_private(runs, options.is_private);
   Model model;
   model.json["schema"] = "traverse/comparison/1";
   model.add_text("recording", runs.front().data.recording_name());

@@ -1,6 +1,14 @@
 #include "run/run_data.hpp"
 
+#include "traverse/pipeline/privacy.hpp"
+
 namespace traverse::report {
+
+void make_private(RunData& run, const std::filesystem::path& place) {
+  run.record = nlohmann::json::parse(pipeline::Privacy(place).record(run.record_json));
+  const std::filesystem::path plain = std::filesystem::absolute(place).lexically_normal();
+  run.folder = {plain.has_filename() ? plain.filename() : plain.parent_path().filename()};
+}
 
 RunData read_run(const std::filesystem::path& folder, pipeline::RunPart part) {
   RunData run;

@@ -45,6 +45,9 @@ std::optional<BudgetResult> write_run_report(const std::filesystem::path& run_fo
   const std::vector<RunFigure> figures = run_figures(run);
   std::optional<BudgetResult> budget;
   if (options.budget) budget = check_figures(*options.budget, figures);
+  if (options.is_private || run.is_private() || (budget && budget->is_private)) {
+    make_private(run, run.folder.path);
+  }
 
   const evaluation::WorstSegments worst =
       evaluation::worst_segments(run.evaluation, run.frames.column("residual_rms_m"));

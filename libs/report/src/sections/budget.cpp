@@ -26,8 +26,14 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kFormerNa
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-std::map<std::string_view, double> read_limits(const std::filesystem::path& file) {
-  std::map<std::string_view, double> limits;
+struct Limits {
+  std::map<std::string_view, double> at_most;
+  bool is_private = false;
+};
+
+Limits read_limits(const std::filesystem::path& file) {
+  Limits read;
+  auto& limits = read.at_most;
   for (const FigureKind& kind : figure_kinds()) limits[kind.id] = kNoLimit;
   config::read(config::Document::load(file), [&](config::Binder& binder) {
     for (const FigureKind& kind : figure_kinds()) {
@@ -36,8 +42,9 @@ std::map<std::string_view, double> read_limits(const std::filesystem::path& file
     for (const auto& [former, id] : kFormerNames) {
       binder.number(former, limits[id], config::Range::any(), "up to version 0.1");
     }
+    binder.flag("private", read.is_private, "pages do not tell whose machine made the run");
   });
-  return limits;
+  return read;
 }
 
 std::string value_text(const BudgetLine& line) {
@@ -68,11 +75,12 @@ std::string BudgetResult::table() const {
 
 BudgetResult check_figures(const std::filesystem::path& file,
                            const std::vector<RunFigure>& figures) {
-  const auto limits = read_limits(file);
+  const Limits limits = read_limits(file);
   BudgetResult result;
   result.file = file;
+  result.is_private = limits.is_private;
   for (const FigureKind& kind : figure_kinds()) {
-    const double limit = limits.at(kind.id);
+    const double limit = limits.at_most.at(kind.id);
     if (limit == kNoLimit) continue;
     BudgetLine line{std::string(kind.id),   std::string(kind.label),
                     std::string(kind.unit), limit,
@@ -87,7 +95,9 @@ BudgetResult check_figures(const std::filesystem::path& file,
   return result;
 }
 
-void require_valid_budget(const std::filesystem::path& budget) { check_figures(budget, {}); }
+bool require_valid_budget(const std::filesystem::path& budget) {
+  return check_figures(budget, {}).is_private;
+}
 
 BudgetResult check_budget(const std::filesystem::path& budget,
                           const std::filesystem::path& run_folder) {

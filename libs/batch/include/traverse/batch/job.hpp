@@ -21,6 +21,8 @@ struct Job {
   std::vector<std::string> arguments;  ///< of the program: "run", RECORDING, ...; output is "run"
   RunLimits limits;
 
+  /// Whether what comes of it must not tell whose machine made it.
+  bool is_private() const;
   /// "floam solver.huber_m=0.2": the pipeline and its point of the grid.
   std::string variant() const;
   /// "drive_0001, floam solver.huber_m=0.2, repeat 2"

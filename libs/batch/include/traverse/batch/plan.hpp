@@ -89,6 +89,7 @@ struct Plan {
   std::vector<PlannedPipeline> pipelines;
   int repeats = 1;
   bool reports = true;               ///< pictures and report.html of each run
+  bool is_private = false;           ///< results do not tell whose machines made them
   std::vector<std::string> metrics;  ///< the report's columns; the first ranks
   std::vector<Budget> budgets;
   RunLimits limits;

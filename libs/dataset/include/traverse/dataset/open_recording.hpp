@@ -46,6 +46,12 @@ struct OpenOptions {
   std::filesystem::path share_folder;
 };
 
+/// What `options` state, each key for itself, so that it holds from any working directory: a file
+/// is named by its absolute path unless it stands beside the recording.
+/// \throws files::InputError as open_recording() for a file of statements that cannot be read
+std::vector<std::string> lasting_statements(const std::filesystem::path& recording,
+                                            const OpenOptions& options);
+
 /// Opens a recording, finding out its format from what is there (recording_formats.hpp).
 /// \throws files::InputError if it is of none that is known or cannot be read.
 std::unique_ptr<Source> open_recording(const std::filesystem::path& path,

@@ -22,6 +22,10 @@ struct Fact {
   std::string reason;  ///< "traverse.yaml, line 3" | "KITTI raw scans are not" | "--recording ..."
 };
 
+/// The name of facts about files that lie beside a recording and may be meant for it, but are not
+/// used: what they are, and as the reason the option that takes them.
+inline constexpr const char* kNotUsed = "not used";
+
 /// Records that could not be used, by reason, with the first few places of each.
 class SkippedRecords {
  public:

@@ -59,7 +59,7 @@ FactorBench measure_factors(const FrameCorrespondences& frame, const SolverOptio
 /// The measurement as JSON: {"recording", "frame", "lines", "planes", "repeats", "evaluations":
 /// [{"factor", "derivative", "residuals", "nanoseconds": S}], "solves": [{"factors", "derivative",
 /// "iterations", "milliseconds": S, "from_analytic_m", "from_analytic_rad"}]} with
-/// S = {"median", "lower_quartile", "upper_quartile"}.
+/// S = {"median", "lower_quartile", "upper_quartile"}; sealed (files::sealed_json).
 std::string to_json(const FactorBench& bench);
 
 /// Reads what to_json() wrote. \throws files::InputError naming the file and the key.

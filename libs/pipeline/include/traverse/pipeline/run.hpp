@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <string>
@@ -22,6 +23,10 @@ struct RunOptions {
   double map_voxel_m = 0.2;
   std::size_t max_map_points = 20'000'000;
   std::vector<std::string> command;  ///< for the record
+  /// What was stated about the recording, to hold from any folder: dataset::lasting_statements().
+  std::vector<std::string> statements;
+  std::filesystem::path place;  ///< where the folder will stand in the end; empty: where it is
+  bool is_private = false;      ///< the record tells neither whose machine it was nor its paths
 };
 
 /// What a run tells while it works.

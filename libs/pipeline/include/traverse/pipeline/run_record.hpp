@@ -11,6 +11,7 @@
 #include "traverse/pipeline/estimator.hpp"
 #include "traverse/pipeline/provenance.hpp"
 #include "traverse/pipeline/registry.hpp"
+#include "traverse/pipeline/run_digests.hpp"
 #include "traverse/pipeline/run_health.hpp"
 
 namespace traverse::pipeline {
@@ -40,6 +41,8 @@ struct RunRecord {
   std::optional<RunHealth> health;  ///< nothing without a frame
 
   std::vector<std::string> command;
+  std::filesystem::path place;  ///< where the folder will stand, absolute; empty: not known
+  bool is_private = false;      ///< absolute paths and the host are left out of run.json
   std::string pipeline;
   std::string pipeline_description;
   std::string estimator_kind;  ///< "voxel_map", "localize_voxel_map"
@@ -47,6 +50,7 @@ struct RunRecord {
   int threads = 1;
 
   dataset::RecordingInfo recording;
+  std::vector<std::string> statements;  ///< about it, beyond what stands beside it
   std::uintmax_t recording_bytes = 0;
   std::string recording_sha256;  ///< empty if it was not asked for
   std::optional<std::string> reference_file;
@@ -73,6 +77,8 @@ struct RunRecord {
 
   std::string evaluation_error;  ///< why there is no comparison although there is a reference
 
+  std::vector<FileDigest> files;  ///< of the run folder, as the run wrote them
+
   std::string started_utc;
   double wall_seconds = 0;
   double peak_memory_mb = 0;
@@ -85,7 +91,7 @@ void summarise_timing(const FrameTable& frames, RunRecord& record);
 /// The record as JSON text; docs/run-folder.md describes it.
 std::string to_json(const RunRecord& record, const BuildInfo& build, const HostInfo& host);
 
-/// Writes run.json as this program on this machine. \throws files::OutputError
+/// Writes run.json as this program on this machine, with its own digest. \throws files::OutputError
 struct RunFolder;
 void write_record(const RunFolder& folder, const RunRecord& record);
 

@@ -28,6 +28,7 @@ struct BudgetLine {
 struct BudgetResult {
   std::filesystem::path file;
   std::vector<BudgetLine> lines;
+  bool is_private = false;  ///< asks for pages that do not tell whose machine made the run
 
   bool passed() const;
   /// A line a limit: "pass  frame_median_ms  22.3 ms, at most 100", and the verdict below.
@@ -36,7 +37,8 @@ struct BudgetResult {
 
 /// Reads a budget without a run, to tell early what is wrong with it.
 /// \throws files::InputError for an unknown figure, a value that is no number, or no limit at all.
-void require_valid_budget(const std::filesystem::path& budget);
+/// \returns whether it asks for results that do not tell whose machine made them (`private: true`)
+bool require_valid_budget(const std::filesystem::path& budget);
 
 /// A run against a budget: a YAML file of "figure: at most", or at least for what is better when
 /// it is more (registered_share). share/budgets/ has examples;

@@ -9,6 +9,8 @@ namespace traverse::report {
 struct CompareOptions {
   /// A difference counts when its whole interval lies beyond so many percent of the baseline.
   double threshold_percent = 1;
+  /// The page tells neither whose machine the runs were made on nor paths on it.
+  bool is_private = false;
 };
 
 /// Compares runs of one recording, the first being the baseline, and writes `page` (one

@@ -20,6 +20,9 @@ struct RunReportOptions {
   std::optional<std::filesystem::path> exports;  ///< folder for every table as CSV and LaTeX
   /// What the page calls the folder, if that is to be renamed; empty: by its name.
   std::filesystem::path folder_on_page;
+  /// The page tells neither whose machine the run was made on nor paths on it. So is, in any case,
+  /// that of a run whose run.json does not tell them, and one with a budget that asks for it.
+  bool is_private = false;
   /// Once it is true ReportStopped is thrown before the next picture.
   const std::atomic<bool>* stop = nullptr;
   /// Called with the name of each picture that is finished, from one thread at a time.
