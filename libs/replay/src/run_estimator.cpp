@@ -1,6 +1,8 @@
 #include "traverse/replay/run_estimator.hpp"
 
 #include <algorithm>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "traverse/files/json_document.hpp"
