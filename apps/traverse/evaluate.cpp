@@ -40,7 +40,12 @@ constexpr const char* kExamples = R"(Examples:
   traverse evaluate RUN --rpe 10f --rpe 100m --all-pairs --json evaluation.json
   traverse evaluate 00_estimate.txt --reference 00.txt --format kitti --align sim3 --relation full
 
-ESTIMATE and REFERENCE are TUM, KITTI or EuRoC files; KITTI files go by index. The definitions are
+ESTIMATE and REFERENCE are TUM, KITTI or EuRoC files; KITTI files go by index, others by time: each
+pose of the shorter file gets the pose of the other that is nearest in time, the earlier of two, if
+it is within --max-time-difference. Times are compared as evo does, as doubles of seconds: at Unix
+times they are 0.24 us apart, and that decides between two poses that are equally near. Positions on
+a line, or that stand still, leave a rotation of the alignment open: then the errors of position are
+shown, those of rotation only after alignment at the first pose. The definitions are
 those of evo: translation is its trans_part, rotation its rot_part, point-distance-ratio its
 point_distance_error_ratio. Without --relation the table shows translation and angle-deg, without
 --rpe the error over one frame. KITTI drift and path figures are of the estimate as it is, not
@@ -166,14 +171,46 @@ void take_frame_of_run(const fs::path& run, evaluation::KittiDriftOptions& optio
   (kitti.T_body_camera ? options.camera_frame : options.body_frame) = kitti.frame;
 }
 
-void read_into(evaluation::TrajectoryStore& trajectory, const fs::path& file,
-               TrajectoryFormat format) {
-  dataset::read_poses(
-      file, format,
-      [&](const std::optional<geometry::Stamp>& stamp, const geometry::Pose3& T_map_body) {
-        trajectory.push_back(stamp, T_map_body);
-      });
+/// Poses are matched by index: their frame numbers have to be that.
+void require_no_gaps(const fs::path& file, const std::vector<std::size_t>& frame_numbers) {
+  for (std::size_t i = 0; i < frame_numbers.size(); ++i) {
+    if (frame_numbers[i] == i) continue;
+    throw files::InputError(
+        file, files::Place::whole_file(),
+        "frame numbers from 0 on without a gap, since poses are matched by index",
+        fmt::format("{} where {} is expected; give a TUM or EuRoC file, whose "
+                    "poses have times",
+                    frame_numbers[i], i));
+  }
 }
+
+/// A trajectory that need not fit into memory, and as what its file was read.
+struct ReadTrajectory {
+  evaluation::TrajectoryStore poses;
+  dataset::TrajectoryReading reading;
+
+  ReadTrajectory(const fs::path& file, TrajectoryFormat format)
+      : reading(dataset::read_poses(
+            file, format,
+            [&](const std::optional<geometry::Stamp>& stamp, const geometry::Pose3& T_map_body) {
+              poses.push_back(stamp, T_map_body);
+            })) {
+    require_no_gaps(file, reading.frame_numbers);
+  }
+
+  evaluation::TrajectoryView view() const {
+    evaluation::TrajectoryView view(poses);
+    if (reading.format == TrajectoryFormat::kEuroc) {
+      view.times = evaluation::TimesInFile::kNanoseconds;
+    }
+    return view;
+  }
+  void describe_in(evaluation::TrajectoryFacts& facts, const fs::path& file) const {
+    facts.name = file.string();
+    facts.read_as = describe(reading);
+    facts.notes = reading.notes;
+  }
+};
 
 /// The document is written as it is made: in memory it is many times as large as what it tells.
 void evaluate(const Arguments& arguments) {
@@ -189,13 +226,12 @@ void evaluate(const Arguments& arguments) {
     estimate_file = arguments.estimate / "trajectory.tum";
     take_frame_of_run(arguments.estimate, options.kitti);
   }
-  evaluation::TrajectoryStore estimate;
-  evaluation::TrajectoryStore reference;
-  read_into(estimate, estimate_file, arguments.format);
-  read_into(reference, reference_file, arguments.format);
-  evaluation::Evaluation evaluation = evaluation::evaluate(estimate, reference, options);
-  evaluation.estimate.name = estimate_file.string();
-  evaluation.comparison->reference.name = reference_file.string();
+  const ReadTrajectory estimate(estimate_file, arguments.format);
+  const ReadTrajectory reference(reference_file, arguments.format);
+  evaluation::Evaluation evaluation =
+      evaluation::evaluate(estimate.view(), reference.view(), options);
+  estimate.describe_in(evaluation.estimate, estimate_file);
+  reference.describe_in(evaluation.comparison->reference, reference_file);
 
   fmt::print("{}", to_table(evaluation));
   if (arguments.json) {

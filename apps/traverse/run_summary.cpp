@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "traverse/dataset/source.hpp"
 #include "traverse/evaluation/json.hpp"
 
 namespace traverse::app {
@@ -67,26 +68,45 @@ void print_unused(const dataset::RecordingInfo& recording) {
   }
 }
 
+/// What was told of the clock: stamps of the trajectory are not those of the recording everywhere.
+void print_steps(const dataset::RecordingInfo& recording) {
+  for (const dataset::Fact& fact : recording.facts) {
+    if (dataset::is_clock_step(fact)) {
+      print_line("clock", fmt::format("{}: {}; {}", fact.name, fact.value, fact.reason));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> accuracy_lines(const evaluation::Comparison& comparison) {
   std::vector<std::string> lines;
+  const auto add_ape = [&](const std::vector<evaluation::Ape>& list, const std::string& alignment) {
+    for (const evaluation::Ape& ape : list) {
+      if (ape.relation != evaluation::Relation::kTranslation) continue;
+      lines.push_back(fmt::format("APE {:.3f} m (rmse over {} poses{})", ape.statistics.rmse,
+                                  ape.statistics.count, alignment));
+    }
+  };
   if (const auto& kitti = comparison.kitti) {
     lines.push_back(
         fmt::format("drift {:.2f} %, {:.4f} deg/m (KITTI, mean over {} segments, {} frame)",
                     kitti->translation_percent, kitti->rotation_deg_per_m, kitti->segments.size(),
                     kitti->frame));
   }
-  for (const evaluation::Ape& ape : comparison.ape) {
-    if (ape.relation != evaluation::Relation::kTranslation) continue;
-    lines.push_back(fmt::format("APE {:.3f} m (rmse over {} poses)", ape.statistics.rmse,
-                                ape.statistics.count));
+  add_ape(comparison.ape, "");
+  const evaluation::Alignment& alignment = comparison.alignment;
+  if (alignment.undetermined != evaluation::Undetermined::kNothing) {
+    add_ape(comparison.ape_at_origin, ", aligned at the first pose");
+    lines.push_back(fmt::format("{} of the alignment not determined: {}",
+                                name_of(alignment.undetermined), alignment.reason));
   }
   const evaluation::PathFigures& path = comparison.path;
   lines.push_back(
       fmt::format("closing error {:.3f} m{} after {:.1f} m, {:.2f} deg", path.end_error_m,
                   path.end_error_percent ? fmt::format(" ({:.2f} %)", *path.end_error_percent) : "",
                   path.reference_m, path.end_rotation_deg));
+  for (const std::string& warning : comparison.warnings) lines.push_back("warning: " + warning);
   return lines;
 }
 
@@ -95,12 +115,13 @@ void print_run_summary(const pipeline::RunRecord& record, const pipeline::RunFol
   const evaluation::Evaluation evaluation = evaluation::read_evaluation(folder.evaluation());
   print_status(record);
   print_line("frames", frames_text(record));
-  if (const std::string& refused = record.recording.refused_reference; !refused.empty()) {
+  if (const std::string& refused = record.recording.reference_refused; !refused.empty()) {
     print_line("reference", "not used: " + refused);
   }
   if (evaluation.comparison) print_accuracy(*evaluation.comparison);
   print_sensors(record);
   if (!record.reference_file) print_unused(record.recording);
+  print_steps(record.recording);
   if (evaluation.consistency) {
     print_line("map",
                fmt::format("entropy (MME) {:.3f}, {} points ({})", evaluation.consistency->mme,

@@ -1,11 +1,15 @@
 #include "traverse/dataset/trajectory_files.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
+#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -120,11 +124,13 @@ TEST(TrajectoryFiles, TheWrittenTextIsWhatOtherToolsRead) {
 TEST(TrajectoryFiles, ReadsTheColumnsOfEachFormat) {
   const Pose3 quarter_turn{(Eigen::Matrix3d() << 0, -1, 0, 1, 0, 0, 0, 0, 1).finished(), {1, 2, 3}};
   const Trajectory tum =
-      read_text_as("# x\n1317042145.123456789 1 2 3  0 0 2 2\n", TrajectoryFormat::kAuto);
+      read_text_as("# x\n1317042145.123456789 1 2 3  0 0 0.7071067811865476 0.7071067811865476\n",
+                   TrajectoryFormat::kAuto);
   EXPECT_EQ(tum.stamp(0).nanoseconds, 1317042145123456789);
   EXPECT_TRUE(tum.pose(0).matrix().isApprox(quarter_turn.matrix(), 1e-15));
   const Trajectory euroc = read_text_as(
-      "#timestamp, p_RS_R_x [m], ...\n1403636580838555648, 1, 2, 3, 1, 0, 0, 1, 0.5, 0.25\n",
+      "#timestamp, p_RS_R_x [m], ...\n1403636580838555648, 1, 2, 3, 0.7071067811865476, 0, 0, "
+      "0.7071067811865476, 0.5, 0.25\n",
       TrajectoryFormat::kAuto);
   EXPECT_EQ(euroc.stamp(0).nanoseconds, 1403636580838555648);
   EXPECT_TRUE(euroc.pose(0).matrix().isApprox(quarter_turn.matrix(), 1e-15));
@@ -166,9 +172,126 @@ TEST(TrajectoryFiles, RefusesWhatIsNoPoseAndNamesTheLine) {
             "line 1: a time in whole nanoseconds | '1.5'");
   EXPECT_EQ(message_of("5,0,0,0,0,0,0,0\n", euroc),
             "line 1: a quaternion of length 1 | one of length 0");
+  EXPECT_EQ(message_of("1 0 0 0 1 2 3 0.5\n", tum),
+            "line 1: a quaternion of length 1 | one of length 3.775");
+  EXPECT_EQ(message_of("5,0,0,0,0.8,0,0,0\n", euroc),
+            "line 1: a quaternion of length 1 | one of length 0.8");
   EXPECT_EQ(message_of("# only a comment\n", tum), ": at least one pose | none");
   EXPECT_EQ(message_of("", TrajectoryFormat::kAuto), ": at least one pose | none");
   EXPECT_THAT(message_of("1 2 3\n", TrajectoryFormat::kAuto), HasSubstr("line 1: a pose with 8"));
+}
+
+TEST(TrajectoryFiles, TimesOfAnotherUnitAreNamed) {
+  EXPECT_EQ(
+      message_of("1700000000000000000 0 0 0 0 0 0 1\n", TrajectoryFormat::kTum),
+      "line 1: a time in seconds, below 9.2e9 | '1700000000000000000', nanoseconds if it is a "
+      "Unix time: write seconds, or a EuRoC file, whose times are nanoseconds (commas between, "
+      "w before x y z)");
+  EXPECT_THAT(message_of("1.7e+15 0 0 0 0 0 0 1\n", TrajectoryFormat::kTum),
+              HasSubstr("'1.7e+15', microseconds if it is"));
+  EXPECT_EQ(
+      message_of("1700000000.1,0,0,0,1,0,0,0\n", TrajectoryFormat::kAuto),
+      "line 1: a time in whole nanoseconds | '1700000000.1', seconds if it is a Unix time: "
+      "write nanoseconds, or a TUM file, whose times are seconds (blanks between, w after x y "
+      "z)");
+}
+
+TEST(TrajectoryFiles, EurocTimesMayBeWrittenAsFloatingPointNumbers) {
+  const std::string rest = ",0,0,0,1,0,0,0\n";
+  for (const std::string time : {"1700000000100000000", "1.700000000100000000e+18",
+                                 "1.7000000001E18", "1700000000100000000.0"}) {
+    EXPECT_EQ(read_text_as(time + rest, TrajectoryFormat::kAuto).stamp(0).nanoseconds,
+              1700000000100000000)
+        << time;
+  }
+}
+
+TrajectoryReading reading_of(const std::string& text) {
+  const TemporaryFolder folder;
+  files::write_text(folder / "t.txt", text);
+  TrajectoryReading reading;
+  read_trajectory(folder / "t.txt", TrajectoryFormat::kAuto, &reading);
+  return reading;
+}
+
+TEST(TrajectoryFiles, SaysAsWhatAFileWasReadAndWhy) {
+  EXPECT_EQ(describe(reading_of("1 0 0 0 0 0 0 1\n")), "TUM, 8 columns between blanks");
+  EXPECT_EQ(describe(reading_of("1 0 0 0 0 1 0 0 0 0 1 0\n")), "KITTI, 12 columns between blanks");
+  EXPECT_EQ(describe(reading_of("5,0,0,0,1,0,0,0\n")), "EuRoC, commas between the columns");
+}
+
+TEST(TrajectoryFiles, QuaternionsNearlyOfLengthOneAreNormalisedWithANote) {
+  EXPECT_THAT(reading_of("1 0 0 0 0 0 0.707 0.708\n").notes, ::testing::IsEmpty());
+  EXPECT_THAT(reading_of("1 0 0 0 0 0 0 0.95\n2 0 0 0 0 0 0 1.05\n3 0 0 0 0 0 0 1\n").notes,
+              ElementsAre("2 quaternions of length 0.95 to 1.05 were normalised"));
+  EXPECT_THAT(reading_of("5,0,0,0,1.02,0,0,0\n").notes,
+              ElementsAre("1 quaternion of length 1.02 to 1.02 was normalised"));
+}
+
+TEST(TrajectoryFiles, FrameNumbersMayStandBeforeTheMatrix) {
+  const std::string pose = " 1 0 0 4 0 1 0 5 0 0 1 6\n";
+  const TrajectoryReading reading = reading_of("0" + pose + "1" + pose + "7" + pose);
+  EXPECT_EQ(describe(reading), "KITTI, 12 columns after a frame number");
+  EXPECT_THAT(reading.frame_numbers, ElementsAre(0, 1, 7));
+  EXPECT_EQ(read_text_as("3" + pose, TrajectoryFormat::kKitti).pose(0).translation,
+            Eigen::Vector3d(4, 5, 6));
+  EXPECT_THAT(reading_of("0.000000000e+00" + pose + "1.2e1" + pose).frame_numbers,
+              ElementsAre(0, 12));
+  const auto kitti = TrajectoryFormat::kKitti;
+  EXPECT_EQ(message_of("2" + pose + "2" + pose, kitti), "line 2: a frame number from 3 on | '2'");
+  EXPECT_EQ(message_of("0.5" + pose, kitti), "line 1: a frame number from 0 on | '0.5'");
+  EXPECT_EQ(message_of("0" + pose + pose, kitti),
+            "line 2: a frame number and the 12 numbers of a 3x4 matrix of a KITTI file | 12");
+}
+
+/// A drive along a curve with hills, its quaternions in that order of columns.
+std::string drive(const std::string& separator, bool is_w_first, double turn, std::size_t poses) {
+  std::string text;
+  Pose3 pose;
+  for (std::size_t i = 0; i < poses; ++i) {
+    const double s = static_cast<double>(i) / static_cast<double>(poses);
+    Eigen::Quaterniond q(Eigen::AngleAxisd(turn * s, Eigen::Vector3d::UnitZ()) *
+                         Eigen::AngleAxisd(0.1 * std::sin(20 * s), Eigen::Vector3d::UnitY()));
+    pose.translation += q * Eigen::Vector3d(0.5, 0, 0);
+    const Eigen::Vector3d t = pose.translation + 0.02 * Eigen::Vector3d::Random();
+    std::vector<double> numbers{t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()};
+    if (is_w_first) std::rotate(numbers.begin() + 3, numbers.begin() + 6, numbers.end());
+    text += separator == "," ? std::to_string(1700000000000000000 + 100000000 * i)
+                             : std::to_string(1700000000 + 0.1 * static_cast<double>(i));
+    for (const double number : numbers) text += separator + std::to_string(number);
+    text += "\n";
+  }
+  return text;
+}
+
+TEST(TrajectoryFiles, QuaternionsInTheOtherOrderAreFound) {
+  for (const double turn : {0.8, 3.0, -6.0}) {
+    for (const std::size_t poses : {120U, 3000U}) {
+      const TrajectoryReading euroc = reading_of(drive(",", false, turn, poses));
+      ASSERT_THAT(euroc.notes, ::testing::SizeIs(1)) << turn << " " << poses;
+      EXPECT_THAT(euroc.notes[0], HasSubstr("taken as w x y z, the order of this format, but look "
+                                            "like x y z w"));
+      const TrajectoryReading tum = reading_of(drive(" ", true, turn, poses));
+      ASSERT_THAT(tum.notes, ::testing::SizeIs(1)) << turn << " " << poses;
+      EXPECT_THAT(tum.notes[0], HasSubstr("taken as x y z w, the order of this format, but look "
+                                          "like w x y z"));
+      EXPECT_THAT(reading_of(drive(",", true, turn, poses)).notes, ::testing::IsEmpty());
+      EXPECT_THAT(reading_of(drive(" ", false, turn, poses)).notes, ::testing::IsEmpty());
+    }
+  }
+  // Straight on nobody can tell, nor where a body moves to all sides.
+  EXPECT_THAT(reading_of(drive(",", false, 0, 100)).notes, ::testing::IsEmpty());
+  RandomMotion random(4);
+  std::string wild;
+  for (int i = 0; i < 500; ++i) {
+    const Pose3 pose = random.pose(3, 100);
+    const Eigen::Quaterniond q(pose.rotation);
+    wild += std::to_string(i) + " " + std::to_string(pose.translation.x()) + " " +
+            std::to_string(pose.translation.y()) + " " + std::to_string(pose.translation.z()) +
+            " " + std::to_string(q.x()) + " " + std::to_string(q.y()) + " " +
+            std::to_string(q.z()) + " " + std::to_string(q.w()) + "\n";
+  }
+  EXPECT_THAT(reading_of(wild).notes, ::testing::IsEmpty());
 }
 
 TEST(TrajectoryFiles, RefusesToWriteWhatCouldNotBeReadAndLeavesNothing) {

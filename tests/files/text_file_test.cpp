@@ -1,9 +1,15 @@
 #include "traverse/files/text_file.hpp"
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/binary_file.hpp"
+#include "traverse/files/json_document.hpp"
+#include "traverse/files/text_encoding.hpp"
 
 #include "temporary_folder.hpp"
 
@@ -64,6 +70,90 @@ TEST(LineReader, GivesLinesOfAnyUsualLengthAndRefusesLongerOnes) {
   } catch (const InputError& error) {
     EXPECT_EQ(error.place().text, "line 2");
   }
+}
+
+constexpr const char* kMark = "\xEF\xBB\xBF";
+
+TEST(LineReader, AByteOrderMarkIsNoPartOfTheFirstLine) {
+  const TemporaryFolder folder;
+  for (const std::string text : {"1 2\n3\n", "1 2\r\n3\r\n", "# head\n1 2\n3\n", "1 2"}) {
+    write_text(folder / "a.txt", kMark + text);
+    LineReader reader(folder / "a.txt");
+    ASSERT_TRUE(reader.next());
+    EXPECT_EQ(reader.line(), "1 2") << text;
+  }
+  write_text(folder / "a.txt", kMark);
+  EXPECT_FALSE(LineReader(folder / "a.txt").next());
+  // Only at the beginning.
+  write_text(folder / "a.txt", std::string("1\n") + kMark + "2\n");
+  LineReader reader(folder / "a.txt");
+  ASSERT_TRUE(reader.next() && reader.next());
+  EXPECT_EQ(reader.line(), kMark + std::string("2"));
+}
+
+TEST(LineReader, GivesCommentsToWhoAsks) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.csv", "\n#t,x\n1,2\n");
+  LineReader reader(folder / "a.csv");
+  ASSERT_TRUE(reader.next(LineReader::Comments::kGive));
+  EXPECT_EQ(reader.line(), "#t,x");
+  EXPECT_EQ(reader.number(), 2U);
+}
+
+TEST(ReadText, LeavesAByteOrderMarkOut) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.yaml", kMark + std::string("a: 1\n"));
+  EXPECT_EQ(read_text(folder / "a.yaml"), "a: 1\n");
+  write_text(folder / "a.json", kMark + std::string("{\"a\": 1}"));
+  EXPECT_EQ(JsonDocument::read(folder / "a.json").root()["a"].number(), 1);
+}
+
+/// ASCII as UTF-16 or UTF-32: a character and NUL bytes after it, or before it.
+std::string wide(const std::string& ascii, std::size_t bytes, bool is_little_endian) {
+  std::string text;
+  for (const char c : ascii) {
+    std::string character(bytes, '\0');
+    character[is_little_endian ? 0 : bytes - 1] = c;
+    text += character;
+  }
+  return text;
+}
+
+TEST(TextEncoding, TextOfOtherEncodingsIsNamedWithTheNextStep) {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "a.txt").string();
+  const std::string ascii = "1700000000.0 1 2 3 0 0 0 1\r\n";
+  const std::vector<std::pair<std::string, std::string>> texts{
+      {"\xFF\xFE" + wide(ascii, 2, true), "UTF-16LE"},
+      {"\xFE\xFF" + wide(ascii, 2, false), "UTF-16BE"},
+      {wide(ascii, 2, true), "UTF-16LE"},
+      {wide(ascii, 2, false), "UTF-16BE"},
+      {std::string("\xFF\xFE\0\0", 4) + wide(ascii, 4, true), "UTF-32LE"},
+      {std::string("\0\0\xFE\xFF", 4) + wide(ascii, 4, false), "UTF-32BE"}};
+  for (const auto& [text, encoding] : texts) {
+    write_text(file, text);
+    const std::string message = file + ": expected text in UTF-8 or ASCII, found " +
+                                encoding.substr(0, 6) + " text; save it as UTF-8, or: iconv -f " +
+                                encoding + " -t UTF-8 " + file + " > COPY";
+    const auto error_of = [](const auto& read) -> std::string {
+      try {
+        read();
+      } catch (const OtherEncoding& error) {
+        return error.what();
+      }
+      return "no error";
+    };
+    EXPECT_EQ(error_of([&] { LineReader(file).next(); }), message);
+    EXPECT_EQ(error_of([&] { read_text(file); }), message);
+    EXPECT_EQ(error_of([&] { JsonDocument::read(file); }), message);
+  }
+}
+
+TEST(TextEncoding, BinaryDataIsNoText) {
+  EXPECT_EQ(byte_order_mark(std::string("a\0b", 3), "a"), 0U);  // too short to tell
+  EXPECT_EQ(byte_order_mark(std::string("\0\0\0\0\0\0\0\0", 8), "a"), 0U);
+  EXPECT_EQ(byte_order_mark(std::string("a\0\0\0b\0\0\0", 8), "a"), 0U);
+  EXPECT_EQ(byte_order_mark("", "a"), 0U);
 }
 
 TEST(ReadText, RefusesWhatIsTooLargeToBeReadAtOnce) {

@@ -2,7 +2,10 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
+#include <random>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -28,6 +31,68 @@ TEST(Stamp, RefusesWhatIsNoTime) {
   for (const char* text : {"", "abc", "1.2.3", "12 ", "nan", "inf", "9300000000", "1e300", "-"}) {
     EXPECT_FALSE(parse_stamp_seconds(text)) << text;
   }
+}
+
+TEST(Stamp, ExponentsAreTakenDigitByDigit) {
+  EXPECT_EQ(parse_stamp_seconds("1.700000000099999905e+09")->nanoseconds, 1700000000099999905);
+  EXPECT_EQ(parse_stamp_seconds("1.7E9")->nanoseconds, 1700000000000000000);
+  EXPECT_EQ(parse_stamp_seconds("1e-9")->nanoseconds, 1);
+  EXPECT_EQ(parse_stamp_seconds("4.9e-10")->nanoseconds, 0);
+  EXPECT_EQ(parse_stamp_seconds("-5e-10")->nanoseconds, -1);
+  EXPECT_EQ(parse_stamp_seconds("1e-300")->nanoseconds, 0);
+  EXPECT_EQ(parse_stamp_seconds("0e99999")->nanoseconds, 0);
+  EXPECT_EQ(parse_stamp_seconds(".5")->nanoseconds, 500'000'000);
+  EXPECT_EQ(parse_stamp_seconds("000000000000012.")->nanoseconds, 12'000'000'000);
+  for (const char* text :
+       {"1e", "e5", "1e1.5", "1e99999999999999999999", ".", "+", "0x10", "1e10"}) {
+    EXPECT_FALSE(parse_stamp_seconds(text)) << text;
+  }
+}
+
+TEST(Stamp, NanosecondsAreWholeHoweverTheyAreWritten) {
+  EXPECT_EQ(parse_stamp_nanoseconds("1403636580838555648")->nanoseconds, 1403636580838555648);
+  EXPECT_EQ(parse_stamp_nanoseconds("1.403636580838555648e+18")->nanoseconds, 1403636580838555648);
+  EXPECT_EQ(parse_stamp_nanoseconds("1.7e+18")->nanoseconds, 1700000000000000000);
+  EXPECT_EQ(parse_stamp_nanoseconds("1700000000100000000.000")->nanoseconds, 1700000000100000000);
+  EXPECT_EQ(parse_stamp_nanoseconds("-9223372036854775808")->nanoseconds,
+            std::numeric_limits<std::int64_t>::min());
+  for (const char* text : {"1.5", "1700000000.1", "1.25e1", "1e-1", "nan", "", "1e19", "5x"}) {
+    EXPECT_FALSE(parse_stamp_nanoseconds(text)) << text;
+  }
+}
+
+TEST(Stamp, UnitsOfUnixTimesAreToldByTheirSize) {
+  EXPECT_EQ(unix_time_unit(1.7e9), UnixTimeUnit::kSeconds);
+  EXPECT_EQ(unix_time_unit(1.7e12), UnixTimeUnit::kMilliseconds);
+  EXPECT_EQ(unix_time_unit(1.7e15), UnixTimeUnit::kMicroseconds);
+  EXPECT_EQ(unix_time_unit(1.7e18), UnixTimeUnit::kNanoseconds);
+  EXPECT_FALSE(unix_time_unit(1e7));
+  EXPECT_FALSE(unix_time_unit(9.3e18));
+  EXPECT_FALSE(unix_time_unit(std::nan("")));
+  for (const char* text :
+       {"1700000000.5", "1700000000500", "1700000000500000", "1700000000500000000"}) {
+    const auto unit = unix_time_unit(std::stod(text));
+    ASSERT_TRUE(unit) << text;
+    EXPECT_EQ(parse_unix_time(text, *unit)->nanoseconds, 1700000000500000000) << text;
+    EXPECT_NEAR(std::stod(text) * seconds_of(*unit), 1.7e9, 1) << text;
+  }
+}
+
+TEST(Stamp, NearestSecondsAreWhatReadingTheTextGives) {
+  std::mt19937_64 random(1);
+  const auto expect_nearest = [](std::int64_t nanoseconds) {
+    const Stamp stamp{nanoseconds};
+    ASSERT_EQ(nearest_seconds(stamp), std::strtod(to_text(stamp).c_str(), nullptr)) << nanoseconds;
+  };
+  for (int i = 0; i < 20000; ++i) {
+    expect_nearest(static_cast<std::int64_t>(random() >> (1 + i % 60)));
+    expect_nearest(-static_cast<std::int64_t>(random() >> (1 + i % 60)));
+    // Half way between two doubles, where one rounding after another goes wrong.
+    const std::int64_t step = 1'000'000'000 / 512;
+    expect_nearest(1'700'000'000'000'000'000 + (2 * i + 1) * step + i % 3 - 1);
+  }
+  expect_nearest(std::numeric_limits<std::int64_t>::min());
+  expect_nearest(0);
 }
 
 TEST(Stamp, NegativeTimesPrintAndReadBack) {

@@ -4,12 +4,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "traverse/evaluation/evaluation_error.hpp"
 #include "traverse/geometry/umeyama.hpp"
 
 #include "names.hpp"
+#include "position_moments.hpp"
 #include "require_matched.hpp"
 
 namespace traverse::evaluation {
@@ -18,26 +16,52 @@ using geometry::Pose3;
 
 namespace {
 
+Undetermined undetermined_of(PositionMoments::Open open, AlignmentMode mode) {
+  switch (open) {
+    case PositionMoments::Open::kNothing:
+      return Undetermined::kNothing;
+    case PositionMoments::Open::kAboutLine:
+      return mode == AlignmentMode::kScale ? Undetermined::kNothing
+                                           : Undetermined::kRotationAboutLine;
+    case PositionMoments::Open::kAll:
+      if (mode == AlignmentMode::kScale) return Undetermined::kScale;
+      return mode == AlignmentMode::kSim3 ? Undetermined::kRotationAndScale
+                                          : Undetermined::kRotation;
+  }
+  return Undetermined::kNothing;
+}
+
+/// Where positions tell all, by the very sums of evo, so that the figures are the same.
+geometry::Similarity fit(const Poses& estimate, const Poses& reference, std::size_t used,
+                         const PositionMoments& moments, bool with_scale) {
+  if (moments.open() != PositionMoments::Open::kNothing) return moments.alignment(with_scale);
+  try {
+    return geometry::umeyama(
+        used, [&](std::size_t i) { return estimate[i].translation; },
+        [&](std::size_t i) { return reference[i].translation; }, with_scale);
+  } catch (const geometry::DegenerateAlignment&) {
+    return moments.alignment(with_scale);  // of a drive of nanometres
+  }
+}
+
 /// From the first `used` poses.
 Alignment align_by_positions(const Poses& estimate, const Poses& reference, std::size_t used,
                              AlignmentMode mode) {
+  const PositionMoments moments(estimate, reference, used);
   Alignment alignment{mode, {}, 1, used};
-  try {
-    const auto similarity = geometry::umeyama(
-        used, [&](std::size_t i) { return estimate[i].translation; },
-        [&](std::size_t i) { return reference[i].translation; }, mode != AlignmentMode::kSe3);
-    alignment.scale = similarity.scale;
-    if (mode != AlignmentMode::kScale) alignment.T_reference_estimate = similarity.T_y_x;
-  } catch (const geometry::DegenerateAlignment&) {
-    throw EvaluationError(
-        fmt::format("the {} alignment is not determined: the {} positions it is found from lie on "
-                    "one point or one line; alignment at the origin or none is possible",
-                    name_of(mode), used));
-  }
+  const auto similarity = fit(estimate, reference, used, moments, mode != AlignmentMode::kSe3);
+  alignment.scale = similarity.scale;
+  if (mode != AlignmentMode::kScale) alignment.T_reference_estimate = similarity.T_y_x;
+  alignment.undetermined = undetermined_of(moments.open(), mode);
+  if (alignment.undetermined != Undetermined::kNothing) alignment.reason = moments.reason();
   return alignment;
 }
 
 }  // namespace
+
+std::string_view name_of(Undetermined undetermined) {
+  return name_in(kUndeterminedNames, undetermined);
+}
 
 std::string_view name_of(AlignmentMode mode) { return name_in(kAlignmentNames, mode); }
 

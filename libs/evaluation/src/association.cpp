@@ -27,28 +27,61 @@ Nanoseconds to_nanoseconds(double seconds) { return std::llround(seconds * 1e9);
 double to_seconds(Nanoseconds value) { return static_cast<double>(value) * 1e-9; }
 Nanoseconds magnitude(Nanoseconds value) { return value < 0 ? -value : value; }
 
-/// Tells of times that do not go back the index of the nearest stamp of a trajectory that is moved
-/// by `offset`, the first of several.
-class Nearest {
+/// The stamps of a trajectory as evo has them: doubles of seconds, moved by `offset_s`.
+class SecondsOfEvo {
  public:
-  Nearest(std::span<const Stamp> stamps, Nanoseconds offset) : stamps_(stamps), offset_(offset) {}
+  SecondsOfEvo(const TrajectoryView& trajectory, double offset_s)
+      : trajectory_(trajectory), offset_s_(offset_s) {}
 
-  std::size_t operator()(Nanoseconds time) {
-    for (; after_ < stamps_.size() && at(after_) < time; ++after_) {
-      if (stamps_[after_] != stamps_[before_]) before_ = after_;
-    }
-    if (after_ == 0) return 0;
-    const bool take_after = after_ < stamps_.size() && at(after_) - time < time - at(before_);
-    return take_after ? after_ : before_;
+  std::size_t size() const { return trajectory_.size(); }
+  double operator[](std::size_t i) const {
+    const Stamp stamp = trajectory_.stamps[i];
+    const double seconds = trajectory_.times == TimesInFile::kSeconds
+                               ? geometry::nearest_seconds(stamp)
+                               : static_cast<double>(stamp.nanoseconds) / 1e9;
+    return seconds + offset_s_;
   }
 
  private:
-  Nanoseconds at(std::size_t i) const { return stamps_[i].nanoseconds + offset_; }
+  const TrajectoryView& trajectory_;
+  double offset_s_;
+};
 
-  std::span<const Stamp> stamps_;
-  Nanoseconds offset_;
-  std::size_t after_ = 0;   ///< the first not before the last time
-  std::size_t before_ = 0;  ///< the first of those as late as the one before that
+/// Tells of times that do not go back the index of the nearest stamp of a trajectory, the first of
+/// several that the differences of doubles do not tell apart.
+class Nearest {
+ public:
+  explicit Nearest(const SecondsOfEvo& stamps) : stamps_(stamps) {}
+
+  struct Found {
+    std::size_t index;
+    double difference_s;  ///< a magnitude
+  };
+  Found operator()(double time) {
+    while (after_ < stamps_.size() && stamps_[after_] < time) ++after_;
+    const auto difference = [&](std::size_t i) { return std::abs(stamps_[i] - time); };
+    if (after_ == 0) return {0, difference(0)};
+    const double before = difference(after_ - 1);
+    if (after_ < stamps_.size() && difference(after_) < before) return {after_, difference(after_)};
+    std::size_t first = after_ - 1;
+    if (first > 0 && difference(first - 1) <= before) {
+      // Differences shrink towards `first`: bisection, because very many may be equal.
+      std::size_t least = 0;
+      while (least < first) {
+        const std::size_t middle = least + (first - least) / 2;
+        if (difference(middle) <= before) {
+          first = middle;
+        } else {
+          least = middle + 1;
+        }
+      }
+    }
+    return {first, before};
+  }
+
+ private:
+  SecondsOfEvo stamps_;
+  std::size_t after_ = 0;  ///< the first not before the last time
 };
 
 std::string span_text(const TrajectoryView& trajectory) {
@@ -92,29 +125,30 @@ void associate_by_index(const TrajectoryView& estimate, const TrajectoryView& re
 
 void associate_by_stamp(const TrajectoryView& estimate, const TrajectoryView& reference,
                         Association& association) {
-  const Nanoseconds offset = to_nanoseconds(association.options.time_offset_s);
-  const Nanoseconds limit = to_nanoseconds(association.options.max_time_difference_s);
+  const double offset_s = association.options.time_offset_s;
+  const Nanoseconds offset = to_nanoseconds(offset_s);
   const bool estimate_drives = estimate.size() <= reference.size();
-  Nearest nearest(estimate_drives ? reference.stamps : estimate.stamps,
-                  estimate_drives ? Nanoseconds{0} : offset);
-  const auto estimate_time = [&](std::size_t i) {
-    return Nanoseconds{estimate.stamps[i].nanoseconds} + offset;
-  };
-  const auto reference_time = [&](std::size_t i) {
-    return Nanoseconds{reference.stamps[i].nanoseconds};
+  const SecondsOfEvo driving(estimate_drives ? estimate : reference, 0);
+  // As evo does it: the longer one is moved, whichever that is.
+  Nearest nearest(estimate_drives ? SecondsOfEvo(reference, -offset_s)
+                                  : SecondsOfEvo(estimate, offset_s));
+  const auto difference = [&](const Match& match) {
+    return Nanoseconds{estimate.stamps[match.estimate].nanoseconds} + offset -
+           Nanoseconds{reference.stamps[match.reference].nanoseconds};
   };
 
-  const std::size_t most = std::min(estimate.size(), reference.size());
-  association.matches.reserve(most);
+  association.matches.reserve(driving.size());
   Nanoseconds closest = std::numeric_limits<Nanoseconds>::max();
-  for (std::size_t k = 0; k < most; ++k) {
+  for (std::size_t k = 0; k < driving.size(); ++k) {
+    const Nearest::Found found = nearest(driving[k]);
     Match match;
-    match.estimate = estimate_drives ? k : nearest(reference_time(k));
-    match.reference = estimate_drives ? nearest(estimate_time(k)) : k;
-    const Nanoseconds difference = estimate_time(match.estimate) - reference_time(match.reference);
-    match.time_difference_s = to_seconds(difference);
-    closest = std::min(closest, magnitude(difference));
-    if (magnitude(difference) <= limit) association.matches.push_back(match);
+    match.estimate = estimate_drives ? k : found.index;
+    match.reference = estimate_drives ? found.index : k;
+    match.time_difference_s = to_seconds(difference(match));
+    closest = std::min(closest, magnitude(difference(match)));
+    if (found.difference_s <= association.options.max_time_difference_s) {
+      association.matches.push_back(match);
+    }
   }
   if (association.matches.empty()) {
     throw EvaluationError(fmt::format(

@@ -73,6 +73,44 @@ void add_rpe(const Poses& estimate, const Poses& reference, const EvaluationOpti
   }
 }
 
+/// What an alignment that leaves a rotation open says nothing about.
+bool is_of_rotation(Relation relation) {
+  return relation != Relation::kTranslation && relation != Relation::kPointDistance;
+}
+
+void add_ape(const MatchedPoses& matched, const Poses& aligned_estimate,
+             const EvaluationOptions& options, Comparison& comparison) {
+  const Alignment& alignment = comparison.alignment;
+  for (const Relation relation : options.ape_relations) {
+    if (!alignment.determines_rotation() && is_of_rotation(relation)) continue;
+    comparison.ape.push_back(ape(aligned_estimate, matched.reference, relation));
+  }
+  if (alignment.undetermined == Undetermined::kNothing) return;
+  comparison.undefined.push_back(
+      {alignment.determines_rotation() ? "scale" : "APE of rotations",
+       fmt::format("{} of the {} alignment is not determined: {}", name_of(alignment.undetermined),
+                   name_of(alignment.mode), alignment.reason)});
+  const Alignment origin =
+      align(matched.estimate, matched.reference, {AlignmentMode::kOrigin, std::nullopt});
+  const Poses at_origin = aligned(matched.estimate, origin);
+  for (const Relation relation : options.ape_relations) {
+    comparison.ape_at_origin.push_back(ape(at_origin, matched.reference, relation));
+  }
+}
+
+/// Figures over a few of many poses are the few's.
+void warn_of_few_matches(std::size_t estimate, std::size_t reference, Comparison& comparison) {
+  const std::size_t matches = comparison.association.matches.size();
+  const std::size_t shorter = std::min(estimate, reference);
+  if (2 * matches >= shorter) return;
+  comparison.warnings.push_back(
+      fmt::format("only {} of the {} poses of the {} found a match within {} s: the figures are "
+                  "those of so few; "
+                  "are the two clocks the same, or is a time offset needed?",
+                  matches, shorter, estimate <= reference ? "estimate" : "reference",
+                  comparison.association.options.max_time_difference_s));
+}
+
 void add_kitti(const MatchedPoses& matched, const KittiDriftOptions& options,
                Comparison& comparison) {
   comparison.kitti = kitti_drift(matched.estimate, matched.reference, options);
@@ -109,6 +147,7 @@ Evaluation evaluate(const TrajectoryView& estimate, const TrajectoryView& refere
   comparison.reference = facts_of(reference, "reference");
   comparison.association = associate(estimate, reference, options.association);
   comparison.stamps = matched_stamps(estimate, comparison.association);
+  warn_of_few_matches(estimate.size(), reference.size(), comparison);
 
   const MatchedPoses matched = matched_poses(estimate, reference, comparison.association.matches);
   comparison.distances_m = accumulated_distances(matched.reference);
@@ -117,9 +156,7 @@ Evaluation evaluate(const TrajectoryView& estimate, const TrajectoryView& refere
 
   comparison.alignment = align(matched.estimate, matched.reference, options.alignment);
   const Poses aligned_estimate = aligned(matched.estimate, comparison.alignment);
-  for (const Relation relation : options.ape_relations) {
-    comparison.ape.push_back(ape(aligned_estimate, matched.reference, relation));
-  }
+  add_ape(matched, aligned_estimate, options, comparison);
   comparison.split = error_split(aligned_estimate, matched.reference);
   add_rpe(aligned_estimate, matched.reference, options, comparison);
   return {facts, std::move(comparison), std::nullopt};

@@ -46,9 +46,22 @@ std::optional<geometry::Stamp> optional_stamp(const JsonValue& node) {
   return nanoseconds ? std::optional(geometry::Stamp{*nanoseconds}) : std::nullopt;
 }
 
+/// A text that files of version 0.1 do not have, or that is null.
+std::string text_if_there(const JsonValue& node, const char* key) {
+  return node.has(key) && !node[key].is_null() ? node[key].text() : std::string();
+}
+std::vector<std::string> texts_if_there(const JsonValue& node, const char* key) {
+  return node.has(key) ? node[key].texts() : std::vector<std::string>();
+}
+
 TrajectoryFacts facts_from(const JsonValue& node) {
-  return {node["name"].text(), node["poses"].count(), node["path_m"].number(),
-          optional_stamp(node["first_stamp_ns"]), optional_stamp(node["last_stamp_ns"])};
+  return {node["name"].text(),
+          node["poses"].count(),
+          node["path_m"].number(),
+          optional_stamp(node["first_stamp_ns"]),
+          optional_stamp(node["last_stamp_ns"]),
+          text_if_there(node, "read_as"),
+          texts_if_there(node, "notes")};
 }
 
 Statistics statistics_from(const JsonValue& node) {
@@ -107,6 +120,10 @@ Alignment alignment_from(const JsonValue& node) {
   if (!(alignment.scale > 0)) throw node["scale"].error("a scale above 0");
   alignment.poses_used = node["poses_used"].count();
   alignment.T_reference_estimate = pose_from(node["T_reference_estimate"]);
+  if (node.has("undetermined")) {
+    alignment.undetermined = one_of(kUndeterminedNames, node["undetermined"]);
+  }
+  alignment.reason = text_if_there(node, "reason");
   return alignment;
 }
 
@@ -207,18 +224,27 @@ Consistency consistency_from(const JsonValue& node) {
   return score;
 }
 
+std::vector<Ape> ape_from(const JsonValue& by_relation, std::size_t matches) {
+  std::vector<Ape> list;
+  for (const std::string& name : by_relation.keys()) {
+    const JsonValue ape = by_relation[name];
+    const auto relation = value_in(kRelationNames, name);
+    if (!relation) throw ape.error("only known relations", name);
+    list.push_back(
+        {*relation, numbers_of(ape["per_pair"]["value"], matches), statistics_from(ape)});
+  }
+  return list;
+}
+
 Comparison comparison_from(const JsonValue& root) {
   Comparison comparison;
   comparison.reference = facts_from(root["reference"]);
   read_association(root["association"], comparison);
   const std::size_t matches = comparison.association.matches.size();
   comparison.alignment = alignment_from(root["alignment"]);
-  for (const std::string& name : root["ape"].keys()) {
-    const JsonValue ape = root["ape"][name];
-    const auto relation = value_in(kRelationNames, name);
-    if (!relation) throw ape.error("only known relations", name);
-    comparison.ape.push_back(
-        {*relation, numbers_of(ape["per_pair"]["value"], matches), statistics_from(ape)});
+  comparison.ape = ape_from(root["ape"], matches);
+  if (root.has("ape_at_origin")) {
+    comparison.ape_at_origin = ape_from(root["ape_at_origin"], matches);
   }
   if (root.has("split") && !root["split"].is_null()) comparison.split = split_from(root["split"]);
   const JsonValue rpe = root["rpe"];
@@ -231,6 +257,7 @@ Comparison comparison_from(const JsonValue& root) {
   for (std::size_t i = 0; i < undefined.size(); ++i) {
     comparison.undefined.push_back({undefined[i]["metric"].text(), undefined[i]["reason"].text()});
   }
+  comparison.warnings = texts_if_there(root, "warnings");
   return comparison;
 }
 

@@ -37,10 +37,15 @@ void statistics_row(Text& text, Relation relation, const Statistics& s) {
        s.mean, s.median, s.std, s.min, s.max, s.sse, s.count);
 }
 
-void add_ape(Text& text, const Comparison& comparison, const std::string& alignment) {
-  if (comparison.ape.empty()) return;
+void add_ape(Text& text, const std::vector<Ape>& list, const std::string& alignment) {
+  if (list.empty()) return;
   statistics_head(text, "APE, " + alignment);
-  for (const Ape& ape : comparison.ape) statistics_row(text, ape.relation, ape.statistics);
+  for (const Ape& ape : list) statistics_row(text, ape.relation, ape.statistics);
+}
+
+void add_reading(Text& text, const TrajectoryFacts& facts) {
+  if (!facts.read_as.empty()) line(text, "{:13}read as {}", "", facts.read_as);
+  for (const std::string& note : facts.notes) line(text, "{:13}note: {}", "", note);
 }
 
 void add_split(Text& text, const Comparison& comparison) {
@@ -115,9 +120,12 @@ void add_comparison(Text& text, const Comparison& comparison) {
   const std::string alignment =
       describe(comparison.alignment, comparison.association.matches.size());
   line(text, "reference    {}", poses_text(comparison.reference));
+  add_reading(text, comparison.reference);
   line(text, "association  {}", describe(comparison.association));
   line(text, "alignment    {}", alignment);
-  add_ape(text, comparison, alignment);
+  for (const std::string& warning : comparison.warnings) line(text, "warning      {}", warning);
+  add_ape(text, comparison.ape, alignment);
+  add_ape(text, comparison.ape_at_origin, "aligned at the first pose");
   add_split(text, comparison);
   add_rpe(text, comparison, alignment);
   if (comparison.kitti) add_kitti(text, *comparison.kitti);
@@ -134,6 +142,7 @@ void add_comparison(Text& text, const Comparison& comparison) {
 std::string to_table(const Evaluation& evaluation) {
   Text text;
   line(text, "estimate     {}", poses_text(evaluation.estimate));
+  add_reading(text, evaluation.estimate);
   if (evaluation.comparison) add_comparison(text, *evaluation.comparison);
   if (evaluation.consistency) add_consistency(text, *evaluation.consistency);
   return fmt::to_string(text);

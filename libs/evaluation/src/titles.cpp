@@ -50,7 +50,14 @@ std::string describe(const Alignment& alignment, std::size_t matches) {
   if (alignment.poses_used > 1 && alignment.poses_used < matches) {
     text += fmt::format(" on the first {} poses", alignment.poses_used);
   }
-  if (has_scale(alignment.mode)) text += fmt::format(", scale {:.6g}", alignment.scale);
+  const bool scale_is_open = alignment.undetermined == Undetermined::kScale ||
+                             alignment.undetermined == Undetermined::kRotationAndScale;
+  if (has_scale(alignment.mode) && !scale_is_open) {
+    text += fmt::format(", scale {:.6g}", alignment.scale);
+  }
+  if (alignment.undetermined != Undetermined::kNothing) {
+    text += fmt::format(", {} not determined", name_of(alignment.undetermined));
+  }
   return text;
 }
 
@@ -63,6 +70,11 @@ std::string title(const Ape& ape, const Comparison& comparison) {
   return fmt::format("APE {}, {}, {}", title_of(ape.relation),
                      describe(comparison.alignment, comparison.association.matches.size()),
                      counted(ape.values.size(), "pair"));
+}
+
+std::string title_at_origin(const Ape& ape) {
+  return fmt::format("APE {}, {}, {}", title_of(ape.relation),
+                     alignment_title(AlignmentMode::kOrigin), counted(ape.values.size(), "pair"));
 }
 
 std::string title(const Rpe& rpe, const Comparison& comparison) {

@@ -79,7 +79,9 @@ Json json_of(const TrajectoryFacts& facts) {
           {"poses", facts.poses},
           {"path_m", facts.path_m},
           {"first_stamp_ns", optional_stamp(facts.first)},
-          {"last_stamp_ns", optional_stamp(facts.last)}};
+          {"last_stamp_ns", optional_stamp(facts.last)},
+          {"read_as", facts.read_as.empty() ? Json() : Json(facts.read_as)},
+          {"notes", facts.notes}};
 }
 
 Json json_of(const Statistics& s) {
@@ -121,15 +123,18 @@ Json alignment_json(const Comparison& comparison) {
           {"scale", alignment.scale},
           {"T_reference_estimate", json_of(alignment.T_reference_estimate)},
           {"poses_used", alignment.poses_used},
+          {"undetermined", name_of(alignment.undetermined)},
+          {"reason", alignment.reason.empty() ? Json() : Json(alignment.reason)},
           {"how", describe(alignment, comparison.association.matches.size())}};
 }
 
-Json ape_json(const Comparison& comparison, Document& document) {
+Json ape_json(const std::vector<Ape>& list, const std::function<std::string(const Ape&)>& how,
+              Document& document) {
   Json by_relation = Json::object();
-  for (const Ape& ape : comparison.ape) {
+  for (const Ape& ape : list) {
     Json entry = json_of(ape.statistics);
     entry["unit"] = unit_of(ape.relation);
-    entry["how"] = title(ape, comparison);
+    entry["how"] = how(ape);
     entry["per_pair"] = {{"value", document.column(ape.values)}};
     by_relation[std::string(name_of(ape.relation))] = std::move(entry);
   }
@@ -230,7 +235,11 @@ void add_comparison(Json& json, const Comparison& comparison, Document& document
   json["reference"] = json_of(comparison.reference);
   json["association"] = association_json(comparison, document);
   json["alignment"] = alignment_json(comparison);
-  json["ape"] = ape_json(comparison, document);
+  json["ape"] = ape_json(
+      comparison.ape, [&](const Ape& ape) { return title(ape, comparison); }, document);
+  if (!comparison.ape_at_origin.empty()) {
+    json["ape_at_origin"] = ape_json(comparison.ape_at_origin, title_at_origin, document);
+  }
   json["split"] = split_json(comparison);
   json["rpe"] = rpe_json(comparison, document);
   json["kitti"] = comparison.kitti ? json_of(*comparison.kitti, document) : Json();
@@ -268,6 +277,8 @@ void write_json(const Evaluation& evaluation, std::ostream& stream) {
     }
   }
   json["undefined"] = std::move(undefined);
+  json["warnings"] =
+      evaluation.comparison ? evaluation.comparison->warnings : std::vector<std::string>{};
   document.print(json, 0, stream);
   stream << '\n';
 }

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "traverse/files/text_encoding.hpp"
+
 #include "open_for_reading.hpp"
 
 namespace traverse::files {
@@ -30,15 +32,17 @@ bool LineReader::take_line() {
   return true;
 }
 
-bool LineReader::next() {
+bool LineReader::next(Comments comments) {
   while (take_line()) {
     ++number_;
+    if (number_ == 1) line_.erase(0, byte_order_mark(line_, path_));
     if (line_.size() > kLongestLine) {
       throw error(fmt::format("lines of at most {} bytes", kLongestLine), "a longer one");
     }
     if (!line_.empty() && line_.back() == '\r') line_.pop_back();
     const std::size_t first = line_.find_first_not_of(" \t");
-    if (first != std::string::npos && line_[first] != '#') return true;
+    if (first == std::string::npos) continue;
+    if (comments == Comments::kGive || line_[first] != '#') return true;
   }
   return false;
 }
@@ -63,6 +67,7 @@ std::string read_text(const std::filesystem::path& path) {
                        fmt::format("a text of at most {} bytes", kMostBytesAtOnce), "a longer one");
     }
   }
+  text.erase(0, byte_order_mark(text, path));
   return text;
 }
 

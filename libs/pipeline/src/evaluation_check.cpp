@@ -95,6 +95,9 @@ class EvaluationCheck {
 
   void require_comparison(const Comparison& comparison) const {
     for (const auto& ape : comparison.ape) require_errors("ape", ape.statistics, ape.values);
+    for (const auto& ape : comparison.ape_at_origin) {
+      require_errors("ape_at_origin", ape.statistics, ape.values);
+    }
     for (const auto& rpe : comparison.rpe) require_errors("rpe", rpe.statistics, rpe.values);
     const auto& path = comparison.path;
     for (const double value : {path.estimate_m, path.reference_m, path.end_error_m,

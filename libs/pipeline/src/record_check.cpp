@@ -146,8 +146,8 @@ void require_run_record(const JsonValue& record) {
     require_texts(decision, {"name", "value"});
   });
   if (!record["reference"].is_null()) require_texts(record["reference"], {"file", "description"});
-  if (record.has("refused_reference") && !record["refused_reference"].is_null()) {
-    require_texts(record, {"refused_reference"});
+  if (record.has("reference_refused") && !record["reference_refused"].is_null()) {
+    require_texts(record, {"reference_refused"});
   }
   if (!record["evaluation_error"].is_null()) require_texts(record, {"evaluation_error"});
   require_configuration(record["configuration"]);

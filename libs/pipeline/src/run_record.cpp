@@ -79,7 +79,9 @@ Json to_json(const dataset::RecordingInfo& info, const std::filesystem::path& ru
             {"format", info.format},
             {"motion_compensated", info.motion_compensated},
             {"sensors", std::move(sensors)},
-            {"facts", std::move(facts)}};
+            {"facts", std::move(facts)},
+            {"reference_refused",
+             info.reference_refused.empty() ? Json() : Json(info.reference_refused)}};
   if (!run_folder.empty()) json["path_from_run"] = place.from_run.string();
   return json;
 }
@@ -186,9 +188,9 @@ std::string to_json(const RunRecord& record, const BuildInfo& build, const HostI
     json["reference"] = {{"file", *record.reference_file},
                          {"description", record.reference_description}};
   }
-  json["refused_reference"] = record.recording.refused_reference.empty()
+  json["reference_refused"] = record.recording.reference_refused.empty()
                                   ? Json(nullptr)
-                                  : Json(record.recording.refused_reference);
+                                  : Json(record.recording.reference_refused);
   json["evaluation_error"] =
       record.evaluation_error.empty() ? Json(nullptr) : Json(record.evaluation_error);
   json["configuration"] = {{"estimator", record.estimator_kind},

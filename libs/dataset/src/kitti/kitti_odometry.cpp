@@ -47,8 +47,10 @@ std::unique_ptr<Source> open_kitti_odometry(const fs::path& folder, const OpenOp
   const std::vector<fs::path> files = files_with_extension(folder / "velodyne", ".bin");
   PoseStamps pose_stamps;
   if (const fs::path times = folder / "times.txt"; fs::exists(times)) {
-    pose_stamps = read_stamps(times);
-    recording.scans = stamp_by_line(files, pose_stamps, "times.txt", "scan", info.facts);
+    const StampFile lines = read_stamps(times);
+    const auto stamps = settled_stamps(lines, "scans", info.facts);
+    pose_stamps = stamps_of(stamps);
+    recording.scans = stamp_by_line(files, stamps, name_with_form(lines), "scan", info.facts);
   } else {
     recording.scans = stamp_by_period(files, statements, info.facts);
     pose_stamps = stamps_of(recording.scans);

@@ -1,3 +1,4 @@
+#include <array>
 #include <string_view>
 #include <utility>
 
@@ -22,24 +23,27 @@ namespace fs = std::filesystem;
 
 constexpr const char* kImu = "oxts_imu";
 constexpr const char* kGnss = "oxts_gnss";
+constexpr const char* kTimes = "timestamps.txt";
 
 struct OxtsStream {
   std::vector<OxtsPacket> packets;  ///< that can be used, their stamps growing
   std::vector<SideRecord> records;  ///< all of them
 };
 
-OxtsStream read_oxts(const fs::path& folder, const fs::path& recording, std::vector<Fact>& facts) {
+OxtsStream read_oxts(const fs::path& folder, const std::vector<RecordStamp>& stamps,
+                     const fs::path& recording, std::vector<Fact>& facts) {
   OxtsStream stream;
   const std::vector<fs::path> files = files_with_extension(folder / "data", ".txt");
-  if (files.empty() || !fs::exists(folder / "timestamps.txt")) return stream;
+  if (files.empty() || !fs::exists(folder / kTimes)) return stream;
   const OxtsReader reader(folder / "dataformat.txt");
-  const auto stamped = stamp_by_line(files, read_stamps(folder / "timestamps.txt"),
-                                     "oxts/timestamps.txt", "oxts", facts);
+  const auto stamped = stamp_by_line(files, stamps, "oxts/timestamps.txt", "oxts", facts);
   geometry::Stamp last_stamp;
   for (const ScanFile& file : stamped) {
     const std::string place = file.file.lexically_relative(recording).generic_string();
     if (!file.stamp) {
-      stream.records.push_back({std::nullopt, last_stamp, "no stamp for the oxts packet", place});
+      const std::string fault = file.fault == StampSequence::kNone ? "no stamp for the oxts packet"
+                                                                   : std::string(file.fault);
+      stream.records.push_back({std::nullopt, last_stamp, fault, place});
       continue;
     }
     last_stamp = *file.stamp;
@@ -47,8 +51,7 @@ OxtsStream read_oxts(const fs::path& folder, const fs::path& recording, std::vec
       const OxtsPacket packet = reader.read(file.file, last_stamp);
       stream.records.push_back({imu_sample(packet, kImu), last_stamp, "", place});
       stream.records.push_back({gnss_fix(packet, kGnss), last_stamp, "", place});
-      const bool is_later = stream.packets.empty() || stream.packets.back().stamp < packet.stamp;
-      if (is_later) stream.packets.push_back(packet);
+      stream.packets.push_back(packet);
     } catch (const InputError& error) {
       stream.records.push_back({std::nullopt, last_stamp,
                                 "oxts packet cannot be used: expected " + error.expected(),
@@ -56,6 +59,10 @@ OxtsStream read_oxts(const fs::path& folder, const fs::path& recording, std::vec
     }
   }
   return stream;
+}
+
+StampFile stamps_if_there(const fs::path& file) {
+  return fs::exists(file) ? read_stamps(file) : StampFile{};
 }
 
 /// Calibration files of a drive stand in the folder of its date.
@@ -130,16 +137,21 @@ std::unique_ptr<Source> open_kitti_raw(const fs::path& folder, const OpenOptions
 
   const fs::path points = folder / "velodyne_points";
   const std::vector<fs::path> files = files_with_extension(points / "data", ".bin");
-  if (const fs::path times = points / "timestamps.txt"; fs::exists(times)) {
-    recording.scans = stamp_by_line(files, read_stamps(times), "velodyne_points/timestamps.txt",
-                                    "scan", info.facts);
+  const std::array<StampFile, 2> times{stamps_if_there(points / kTimes),
+                                       stamps_if_there(folder / "oxts" / kTimes)};
+  std::array<SensorStamps, 2> stamps{sensor_stamps(times[0], "scans"),
+                                     sensor_stamps(times[1], "oxts packets")};
+  settle_steps(stamps, info.facts);
+  if (fs::exists(points / kTimes)) {
+    recording.scans = stamp_by_line(files, stamps[0].sequence.records,
+                                    "velodyne_points/timestamps.txt", "scan", info.facts);
   } else {
     recording.scans = stamp_by_period(files, statements, info.facts);
   }
   info.expected_scans = recording.scans.size();
   set_raw_camera(info, statements, folder);
 
-  OxtsStream oxts = read_oxts(folder / "oxts", folder, info.facts);
+  OxtsStream oxts = read_oxts(folder / "oxts", stamps[1].sequence.records, folder, info.facts);
   Pose3 T_lidar_imu;
   if (!oxts.packets.empty()) {
     T_lidar_imu = imu_calibration(folder, info.facts);

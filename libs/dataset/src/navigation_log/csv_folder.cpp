@@ -11,14 +11,14 @@
 #include <fmt/format.h>
 
 #include "traverse/files/input_error.hpp"
-#include "traverse/files/numbers.hpp"
-#include "traverse/files/text_file.hpp"
 #include "traverse/geodesy/local_tangent_plane.hpp"
 
 #include "kitti/regular_clock.hpp"
+#include "navigation_log/csv_rows.hpp"
 #include "navigation_log/navigation_log.hpp"
 #include "recording/folder_opening.hpp"
 #include "recording/listed_source.hpp"
+#include "recording/stamp_sequence.hpp"
 #include "recording/unused_files.hpp"
 #include "recording/vehicle_statements.hpp"
 
@@ -37,118 +37,64 @@ constexpr const char* kImuTable = "imu";
 constexpr const char* kFixTable = "gnss";
 constexpr const char* kWheelTable = "wheels";
 
-/// The rows that can be used, side by side: one allocation a row would outweigh its numbers.
-class CsvRows {
- public:
-  CsvRows(std::string file, std::size_t columns) : file_(std::move(file)), columns_(columns) {}
+/// The files of a folder whose header tells what they hold, where nothing is stated.
+std::optional<CsvStatements> found_statements(const fs::path& folder) {
+  for (const fs::path& file : files_with_extension(folder, ".csv")) {
+    if (auto statements = euroc_imu_statements(file)) return statements;
+  }
+  return std::nullopt;
+}
 
-  void add(Stamp stamp, std::span<const double> values, std::size_t line) {
-    stamps_.push_back(stamp);
-    values_.insert(values_.end(), values.begin(), values.end());
-    lines_.push_back(line);
-  }
-  std::size_t size() const { return stamps_.size(); }
-  bool empty() const { return stamps_.empty(); }
-  std::vector<Stamp>& stamps() { return stamps_; }
-  Stamp stamp(std::size_t i) const { return stamps_[i]; }
-  std::span<const double> values(std::size_t i) const {
-    return std::span(values_).subspan(i * columns_, columns_);
-  }
-  Eigen::Vector3d vector(std::size_t i) const {
-    const auto row = values(i);
-    return {row[0], row[1], row[2]};
-  }
-  std::string place(std::size_t i) const { return place_of_line(lines_[i]); }
-  std::string place_of_line(std::size_t line) const {
-    return fmt::format("{}, line {}", file_, line);
-  }
-
- private:
-  std::string file_;
-  std::size_t columns_;
-  std::vector<Stamp> stamps_;
-  std::vector<double> values_;  ///< row after row
-  std::vector<std::size_t> lines_;
-};
-
-/// The rows of the columns that are stated; those that cannot be used go to `records`.
-CsvRows read_rows(const fs::path& file, const CsvColumns& stated, double time_unit_s,
-                  ListedRecords& records) {
-  constexpr double kLatest = 9e9;  // seconds that whole nanoseconds can hold
-  files::LineReader reader(file);
-  if (!reader.next()) throw reader.error("a header line", "an empty file");
-  std::vector<std::string> header;
-  for (const auto cell : files::split_cells(reader.line(), ',')) header.emplace_back(cell);
-  const auto column_of = [&](std::string_view name) {
-    const auto found = std::find(header.begin(), header.end(), name);
-    if (found == header.end()) {
-      constexpr std::size_t kShown = 500;
-      throw reader.error("a column " + files::in_quotes(name), reader.line().substr(0, kShown));
-    }
-    return static_cast<std::size_t>(found - header.begin());
-  };
-  std::vector<std::size_t> columns{column_of(stated.time)};
-  for (const auto name : files::split_words(stated.columns)) columns.push_back(column_of(name));
-
-  CsvRows rows(file.filename().string(), columns.size() - 1);
-  std::vector<double> values;
-  while (reader.next()) {
-    const auto cells = files::split_cells(reader.line(), ',');
-    std::string fault;
-    Stamp stamp;
-    values.clear();
-    if (cells.size() != header.size())
-      fault = "CSV line with another number of cells than its header";
-    for (std::size_t k = 0; k < columns.size() && fault.empty(); ++k) {
-      const auto value = files::parse_double(cells[columns[k]]);
-      if (!value || !std::isfinite(*value)) fault = "CSV line with a cell that is no finite number";
-      if (fault.empty() && k == 0) {
-        const double seconds = *value * time_unit_s;
-        if (!(std::abs(seconds) <= kLatest)) fault = "CSV line with no such time";
-        stamp = Stamp::from_seconds(seconds);
-      }
-      if (fault.empty() && k > 0) values.push_back(*value);
-    }
-    if (fault.empty()) {
-      rows.add(stamp, values, reader.number());
-    } else {
-      records.skip(fault, rows.place_of_line(reader.number()));
-    }
-  }
-  return rows;
+bool is_empty(const CsvStatements& csv) {
+  return csv.gyro.file.empty() && csv.accelerometer.file.empty() && csv.gnss.file.empty() &&
+         csv.wheels.file.empty();
 }
 
 /// What a folder's statements name, read.
 class CsvRecording {
  public:
   CsvRecording(const fs::path& folder, const Statements& statements)
-      : folder_(folder), statements_(statements), csv_(statements->csv) {}
-
-  void read_imu() {
+      : statements_(statements), csv_(statements->csv) {
+    if (is_empty(csv_)) {
+      if (const auto found = found_statements(folder)) {
+        csv_.gyro = found->gyro;
+        csv_.accelerometer = found->accelerometer;
+        reason_unstated_ = "the header is that of a EuRoC imu0/data.csv";
+      }
+    }
     if (csv_.gyro.file.empty() != csv_.accelerometer.file.empty()) {
       throw statements_.error("csv.gyro.file", "gyro and accelerometer, or neither", "one of them");
     }
-    if (csv_.gyro.file.empty()) return;
-    const double unit = csv_.angular_rate == AngularUnit::kDegrees ? std::numbers::pi / 180 : 1;
-    const auto gyro = rows("csv.gyro", csv_.gyro, 3, 3);
-    const auto accelerometer = rows("csv.accelerometer", csv_.accelerometer, 3, 3);
+    read_rows("csv.gyro", csv_.gyro, 3, 3, gyro_);
+    read_rows("csv.accelerometer", csv_.accelerometer, 3, 3, accelerometer_);
+    read_rows("csv.gnss", csv_.gnss, 3, 4, gnss_);
+    read_rows("csv.wheels", csv_.wheels, 1, 8, wheels_);
+    read_rows("csv.reference", csv_.reference, 7, 7, reference_);
+    settle();
+  }
+
+  const CsvStatements& statements() const { return csv_; }
+
+  void make_imu() {
+    if (!gyro_ || !accelerometer_) return;
+    const double unit = angular_unit();
     std::size_t k = 0;
-    for (std::size_t i = 0; i < gyro.size(); ++i) {
-      const Stamp stamp = gyro.stamp(i);
-      while (k + 1 < accelerometer.size() && accelerometer.stamp(k + 1) <= stamp) ++k;
-      const auto force = interpolated(accelerometer, k, stamp);
+    for (std::size_t i = 0; i < gyro_->size(); ++i) {
+      const Stamp stamp = gyro_->stamp(i);
+      while (k + 1 < accelerometer_->size() && accelerometer_->stamp(k + 1) <= stamp) ++k;
+      const auto force = interpolated(*accelerometer_, k, stamp);
       if (!force) {
-        records.skip("gyro without accelerometer within 50 ms", gyro.place(i));
+        records.skip("gyro without accelerometer within 50 ms", gyro_->place(i));
         continue;
       }
-      records.add(sensors::ImuSample{stamp, kImuTable, unit * gyro.vector(i), *force},
-                  gyro.place(i));
+      records.add(sensors::ImuSample{stamp, kImuTable, unit * gyro_->vector(i), *force},
+                  gyro_->line(i));
     }
   }
 
-  void read_gnss() {
-    if (csv_.gnss.file.empty()) return;
-    const auto fixes = rows("csv.gnss", csv_.gnss, 3, 4);
+  void make_gnss() {
+    if (!gnss_) return;
+    const CsvRows& fixes = *gnss_;
     for (std::size_t i = 0; i < fixes.size(); ++i) {
       const auto values = fixes.values(i);
       if (std::abs(values[0]) > 90 || std::abs(values[1]) > 360) {
@@ -162,13 +108,13 @@ class CsvRecording {
       fix.longitude_deg = values[1];
       fix.altitude_m = values[2];
       if (values.size() > 3) fix.heading_deg = values[3];
-      records.add(fix, fixes.place(i));
+      records.add(fix, fixes.line(i));
     }
   }
 
-  void read_wheels() {
-    if (csv_.wheels.file.empty()) return;
-    const auto speeds = rows("csv.wheels", csv_.wheels, 1, 8);
+  void make_wheels() {
+    if (!wheels_) return;
+    const CsvRows& speeds = *wheels_;
     for (std::size_t i = 0; i < speeds.size(); ++i) {
       const auto values = speeds.values(i);
       double sum = 0;
@@ -177,14 +123,13 @@ class CsvRecording {
       reading.stamp = speeds.stamp(i);
       reading.sensor = kWheelTable;
       reading.velocity = {sum / static_cast<double>(values.size()), 0, 0};
-      records.add(reading, speeds.place(i));
+      records.add(reading, speeds.line(i));
     }
   }
 
-  std::optional<Reference> read_reference() {
-    if (csv_.reference.file.empty()) return std::nullopt;
-    const auto poses = rows("csv.reference", csv_.reference, 7, 7);
-    if (poses.empty()) return std::nullopt;
+  std::optional<Reference> make_reference() {
+    if (!reference_ || reference_->empty()) return std::nullopt;
+    const CsvRows& poses = *reference_;
     Reference reference;
     reference.file = statements_.find_file("csv.reference.file", csv_.reference.file);
     reference.description = "earth-centred poses in the tangent plane at the first one";
@@ -199,34 +144,84 @@ class CsvRecording {
       const geometry::Pose3 pose{
           plane.R_enu_ecef() * q.normalized().toRotationMatrix() * R_body_axes.transpose(),
           plane.ecef_to_enu(poses.vector(i))};
-      const bool is_later =
-          reference.T_map_body.empty() || reference.T_map_body.stamps().back() < poses.stamp(i);
-      if (is_later) reference.T_map_body.push_back(poses.stamp(i), pose);
+      reference.T_map_body.push_back(poses.stamp(i), pose);
     }
     facts.push_back({"reference", reference.file.string(), reason("csv.reference.file")});
     facts.push_back({"reference frame", reference.description, reason("csv.reference.columns")});
     return reference;
   }
 
-  std::string reason(const char* key) const { return statements_.reason(key, "default"); }
+  std::string reason(const char* key) const { return statements_.reason(key, reason_unstated_); }
 
-  ListedRecords records;
+  ListedRecords records{ListedRecords::Stamps::kSettled};
   std::vector<Fact> facts;
 
  private:
-  CsvRows rows(const std::string& key, const CsvColumns& stated, std::size_t least,
-               std::size_t most) {
-    const std::size_t count = files::split_words(stated.columns).size();
+  void read_rows(const std::string& key, const CsvColumns& stated, std::size_t least,
+                 std::size_t most, std::optional<CsvRows>& rows) {
+    if (stated.file.empty()) return;
+    const std::size_t count = listed_columns(stated.columns).size();
     if (count < least || count > most) {
       throw statements_.error(key + ".columns",
                               least == most ? fmt::format("{} names", least)
                                             : fmt::format("{} to {} names", least, most),
                               fmt::format("{}", count));
     }
-    auto rows = read_rows(statements_.find_file(key + ".file", stated.file), stated,
-                          csv_.time_unit_s, records);
-    if (stated.period_s > 0) regularise(key, stated.period_s, rows);
-    return rows;
+    std::optional<double> time_unit_s;
+    if (statements_.states("csv.time_unit_s")) time_unit_s = csv_.time_unit_s;
+    std::vector<Fact> told;
+    rows = read_csv_rows(statements_.find_file(key + ".file", stated.file), stated, time_unit_s,
+                         records, told);
+    for (Fact& fact : told) {
+      const bool is_new = std::none_of(facts.begin(), facts.end(),
+                                       [&](const Fact& known) { return known.name == fact.name; });
+      if (is_new) facts.push_back(std::move(fact));
+    }
+  }
+
+  /// Makes the stamps of each file grow, and puts them on their sensor's clock where that is
+  /// stated.
+  void settle() {
+    struct Stream {
+      std::string key;
+      const CsvColumns& stated;
+      CsvRows* rows;
+    };
+    std::vector<Stream> streams;
+    const auto add = [&](const char* key, const CsvColumns& stated, std::optional<CsvRows>& rows) {
+      if (rows) streams.push_back({key, stated, &*rows});
+    };
+    add("csv.gyro", csv_.gyro, gyro_);
+    add("csv.accelerometer", csv_.accelerometer, accelerometer_);
+    add("csv.gnss", csv_.gnss, gnss_);
+    add("csv.wheels", csv_.wheels, wheels_);
+    add("csv.reference", csv_.reference, reference_);
+    std::vector<SensorStamps> sensors;
+    for (const Stream& stream : streams) {
+      const std::vector<std::optional<Stamp>> stamps(stream.rows->stamps().begin(),
+                                                     stream.rows->stamps().end());
+      sensors.push_back({stream.key, StampSequence::of(stamps),
+                         [rows = stream.rows](std::size_t row) { return rows->place(row); }});
+    }
+    settle_steps(sensors, facts);
+    for (std::size_t i = 0; i < streams.size(); ++i) {
+      streams[i].rows->take_stamps(sensors[i].sequence.records, records);
+      const double period_s = streams[i].stated.period_s;
+      if (period_s > 0) regularise(streams[i].key, period_s, *streams[i].rows);
+    }
+  }
+
+  /// Radians that a 1 in the gyro's columns means.
+  double angular_unit() {
+    constexpr double kDegrees = std::numbers::pi / 180;
+    if (statements_.states("csv.angular_rate")) {
+      return csv_.angular_rate == AngularUnit::kDegrees ? kDegrees : 1;
+    }
+    const CsvColumn& column = gyro_->columns().front();
+    if (!column.unit.starts_with("deg")) return 1;
+    facts.push_back({"angular rates", "deg/s",
+                     fmt::format("the header's '{} [{}]'", column.name, column.unit)});
+    return kDegrees;
   }
 
   void regularise(const std::string& key, double period_s, CsvRows& rows) {
@@ -261,9 +256,14 @@ class CsvRecording {
     return std::nullopt;
   }
 
-  fs::path folder_;
   const Statements& statements_;
-  const CsvStatements& csv_;
+  CsvStatements csv_;
+  std::string reason_unstated_ = "default";
+  std::optional<CsvRows> gyro_;
+  std::optional<CsvRows> accelerometer_;
+  std::optional<CsvRows> gnss_;
+  std::optional<CsvRows> wheels_;
+  std::optional<CsvRows> reference_;
 };
 
 std::string how_to_state(const fs::path& folder, const fs::path& share_folder) {
@@ -280,10 +280,10 @@ std::unique_ptr<Source> open_csv_folder(const fs::path& folder, const OpenOption
   const Statements statements(folder / "traverse.yaml", options, folder);
   RecordingInfo info = begin_info(folder, format, statements, "vehicle");
   CsvRecording recording(folder, statements);
-  recording.read_imu();
-  recording.read_gnss();
-  recording.read_wheels();
-  const CsvStatements& csv = statements->csv;
+  recording.make_imu();
+  recording.make_gnss();
+  recording.make_wheels();
+  const CsvStatements& csv = recording.statements();
   for (const auto& [label, kind, file] : {std::tuple{kImuTable, SensorKind::kImu, csv.gyro.file},
                                           {kFixTable, SensorKind::kGnss, csv.gnss.file},
                                           {kWheelTable, SensorKind::kWheels, csv.wheels.file}}) {
@@ -299,7 +299,7 @@ std::unique_ptr<Source> open_csv_folder(const fs::path& folder, const OpenOption
     throw InputError(folder, Place::key("csv"), "statements that tell what the CSV files hold",
                      "none; " + how_to_state(folder, options.share_folder));
   }
-  auto reference = recording.read_reference();
+  auto reference = recording.make_reference();
   info.facts.insert(info.facts.end(), recording.facts.begin(), recording.facts.end());
   if (const auto stated = stated_reference(statements); stated && !reference) {
     reference = load_reference(*stated, {}, {}, info.facts);

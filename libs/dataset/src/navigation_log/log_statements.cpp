@@ -1,5 +1,11 @@
 #include "navigation_log/log_statements.hpp"
 
+#include <fmt/format.h>
+
+#include "traverse/files/input_error.hpp"
+#include "traverse/files/numbers.hpp"
+#include "traverse/geometry/stamp.hpp"
+
 namespace traverse::dataset {
 
 using config::Binder;
@@ -15,7 +21,8 @@ constexpr std::array<std::pair<std::string_view, PulseCount>, 2> kPulseCounts{
 void bind_file(Binder& b, CsvColumns& columns) {
   b.text("file", columns.file, "CSV file with a header line, relative to the folder");
   b.text("time", columns.time, "column of the time");
-  b.text("columns", columns.columns, "names of the columns, separated by blanks");
+  b.text("columns", columns.columns,
+         "names of the columns, separated by blanks, or by commas where a name holds one");
   b.number("period_s", columns.period_s, Range::non_negative(),
            "sampling period of the sensor's clock, where readings are stamped on arrival; 0: "
            "stamps are the sensor's");
@@ -47,6 +54,15 @@ void bind(Binder& b, CsvStatements& csv) {
   b.choice("angular_rate", csv.angular_rate, kAngularUnits, "unit of the angular rate, per second");
   b.number("time_unit_s", csv.time_unit_s, Range::positive(),
            "seconds per unit of the time column");
+}
+
+std::string time_out_of_range(std::string_view time, std::string_view key) {
+  const std::string found = files::in_quotes(time);
+  const auto number = files::parse_double(time);
+  const auto unit = number ? geometry::unix_time_unit(*number) : std::nullopt;
+  if (!unit) return found;
+  return fmt::format("{}, {} if it is a Unix time; say so with --recording {}={}", found,
+                     name_of(*unit), key, seconds_of(*unit));
 }
 
 }  // namespace traverse::dataset

@@ -45,4 +45,8 @@ struct CsvStatements {
 };
 void bind(config::Binder& binder, CsvStatements& csv);
 
+/// For an error about a time that is out of range: "'1700000000000000000', nanoseconds if it is a
+/// Unix time; say so with --recording log.time_unit_s=1e-9".
+std::string time_out_of_range(std::string_view time, std::string_view key);
+
 }  // namespace traverse::dataset

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@
 
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/numbers.hpp"
+#include "traverse/files/text_encoding.hpp"
 #include "traverse/files/text_file.hpp"
 
 #include "recording/folder_opening.hpp"
@@ -45,12 +47,23 @@ class BadLine : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A time that is out of range, as it stands in the line.
+class NoSuchTime : public BadLine {
+ public:
+  NoSuchTime(const std::string& fault, std::string_view time) : BadLine(fault), time_(time) {}
+  const std::string& time() const { return time_; }
+
+ private:
+  std::string time_;
+};
+
 class LineParser {
  public:
   explicit LineParser(const LogStatements& log) : log_(log) {}
 
   sensors::Measurement parse(std::string_view line) {
     const std::vector<std::string_view> words = files::split_words(line, kMostWords);
+    if (words.size() > 1) time_ = words[1];
     if (words[0] == kImuLine) return imu(numbers(words, 7));
     if (words[0] == kWheelLine) return wheels(numbers(words, 3));
     if (words[0] == kGnssLine) return gnss(numbers(words, 6));
@@ -77,7 +90,9 @@ class LineParser {
   geometry::Stamp stamp(double time, const char* kind) const {
     constexpr double kLatest = 9e9;  // seconds that whole nanoseconds can hold
     const double seconds = time * log_.time_unit_s;
-    if (std::abs(seconds) > kLatest) throw BadLine(std::string(kind) + " line with no such time");
+    if (std::abs(seconds) > kLatest) {
+      throw NoSuchTime(std::string(kind) + " line with no such time", time_);
+    }
     return geometry::Stamp::from_seconds(seconds);
   }
 
@@ -121,6 +136,7 @@ class LineParser {
   }
 
   LogStatements log_;
+  std::string_view time_;  ///< of the line that is being read
   WheelOdometry::Ticks ticks_;
 };
 
@@ -147,6 +163,8 @@ bool is_navigation_log(const fs::path& file) {
       if (words[0] == kImuLine || words[0] == kWheelLine || words[0] == kGnssLine) return true;
       if (words[0].size() > 100) return false;
     }
+  } catch (const files::OtherEncoding&) {
+    throw;  // a text, and no other reader would name it
   } catch (const InputError&) {
     return false;  // no line of a log is so long
   }
@@ -168,14 +186,25 @@ std::unique_ptr<Source> open_navigation_log(const fs::path& file, const OpenOpti
   ListedRecords records;
   LineParser parser(statements->log);
   files::LineReader reader(file);
+  std::size_t used = 0;
+  std::size_t out_of_range = 0;
+  std::optional<InputError> first_out_of_range;
   while (reader.next()) {
-    const std::string place = fmt::format("line {}", reader.number());
     try {
-      records.add(parser.parse(reader.line()), place);
+      records.add(parser.parse(reader.line()), reader.number());
+      ++used;
     } catch (const BadLine& bad) {
-      records.skip(bad.what(), place);
+      records.skip(bad.what(), fmt::format("line {}", reader.number()));
+      const auto* time = dynamic_cast<const NoSuchTime*>(&bad);
+      if (time != nullptr && ++out_of_range == 1) {
+        first_out_of_range =
+            reader.error(fmt::format("a time in seconds, since log.time_unit_s is {}",
+                                     statements->log.time_unit_s),
+                         time_out_of_range(time->time(), "log.time_unit_s"));
+      }
     }
   }
+  if (out_of_range > used) throw InputError(*first_out_of_range);
   mount(info, statements, records);
   if (info.rig.sensors.empty()) {
     throw InputError(file, Place::whole_file(), "lines of IMU, ODOM or GNSS that can be used",

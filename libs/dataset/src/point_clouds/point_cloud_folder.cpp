@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -25,33 +26,39 @@ namespace fs = std::filesystem;
 constexpr const char* kLidar = "lidar";
 
 /// A stamp written as a file's name: seconds with decimals, or whole nanoseconds or microseconds
-/// told apart by their size. Small whole numbers are counts, not times.
-std::optional<Stamp> stamp_in_name(const std::string& name) {
-  constexpr std::int64_t kLeastNanoseconds = 100'000'000'000'000'000;   // the year 1973
-  constexpr std::int64_t kMostNanoseconds = 9'200'000'000'000'000'000;  // the year 2261
-  if (const auto whole = files::parse_integer(name)) {
-    const auto is_between = [&](std::int64_t least, std::int64_t most) {
-      return least <= *whole && *whole <= most;
-    };
-    if (is_between(kLeastNanoseconds, kMostNanoseconds)) return Stamp{*whole};
-    if (is_between(kLeastNanoseconds / 1000, kMostNanoseconds / 1000)) return Stamp{*whole * 1000};
-    return std::nullopt;
+/// told apart by their size. Smaller whole numbers are counts, not times.
+std::optional<StampText> stamp_in_name(const std::string& name) {
+  const auto whole = files::parse_integer(name);
+  if (!whole && name.find('.') == std::string::npos) return std::nullopt;
+  if (whole) {
+    const auto unit = geometry::unix_time_unit(static_cast<double>(*whole));
+    if (!unit || *unit < geometry::UnixTimeUnit::kMicroseconds) return std::nullopt;
   }
-  return name.find('.') == std::string::npos ? std::nullopt : geometry::parse_stamp_seconds(name);
+  return parse_stamp(name);
 }
 
 std::optional<std::vector<ScanFile>> stamp_by_name(const std::vector<fs::path>& files,
                                                    std::vector<Fact>& facts) {
   std::vector<ScanFile> scans;
+  std::string form;
   for (const fs::path& file : files) {
     const auto stamp = stamp_in_name(file.stem().string());
     if (!stamp) return std::nullopt;
-    scans.push_back({file, stamp});
+    if (form.empty()) form = stamp->form;
+    scans.push_back({file, stamp->stamp});
   }
   std::stable_sort(scans.begin(), scans.end(), [](const ScanFile& a, const ScanFile& b) {
     return a.stamp->nanoseconds < b.stamp->nanoseconds;
   });
-  facts.push_back({"scan stamps", "the files' names", "they are times; there is no times file"});
+  facts.push_back({"scan stamps", "the files' names",
+                   fmt::format("they are times ({}); there is no times file", form)});
+  SensorStamps sensor{"scans", StampSequence::of(stamps_of(scans)),
+                      [&](std::size_t scan) { return scans[scan].file.filename().string(); }};
+  settle_steps(std::span(&sensor, 1), facts);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const RecordStamp& record = sensor.sequence.records[i];
+    scans[i] = {scans[i].file, record.stamp, record.fault};
+  }
   return scans;
 }
 
@@ -59,7 +66,9 @@ std::vector<ScanFile> stamp_scans(const fs::path& folder, const std::vector<fs::
                                   const Statements& statements, std::vector<Fact>& facts) {
   for (const char* name : {"times.txt", "timestamps.txt"}) {
     if (fs::exists(folder / name)) {
-      return stamp_by_line(files, read_stamps(folder / name), name, "scan", facts);
+      const StampFile times = read_stamps(folder / name);
+      return stamp_by_line(files, settled_stamps(times, "scans", facts), name_with_form(times),
+                           "scan", facts);
     }
   }
   if (auto scans = stamp_by_name(files, facts)) return *scans;

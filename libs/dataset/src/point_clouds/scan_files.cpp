@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -78,15 +80,30 @@ std::vector<fs::path> files_with_extension(const fs::path& folder, std::string_v
   return found;
 }
 
+SensorStamps sensor_stamps(const StampFile& times, const std::string& what) {
+  return {what, StampSequence::of(times.stamps), [&times](std::size_t record) {
+            return fmt::format("{}, stamp {}", times.file.filename().string(), record + 1);
+          }};
+}
+
+std::vector<RecordStamp> settled_stamps(const StampFile& times, const std::string& what,
+                                        std::vector<Fact>& facts) {
+  SensorStamps sensor = sensor_stamps(times, what);
+  settle_steps(std::span(&sensor, 1), facts);
+  return std::move(sensor.sequence.records);
+}
+
 std::vector<ScanFile> stamp_by_line(const std::vector<fs::path>& files,
-                                    const std::vector<std::optional<geometry::Stamp>>& stamps,
+                                    const std::vector<RecordStamp>& stamps,
                                     const std::string& times_name, const std::string& what,
                                     std::vector<Fact>& facts) {
   const auto numbers = line_numbers(files, stamps.size());
   std::vector<ScanFile> stamped;
   for (std::size_t i = 0; i < files.size(); ++i) {
     const std::size_t line = numbers ? (*numbers)[i] : i;
-    stamped.push_back({files[i], line < stamps.size() ? stamps[line] : std::nullopt});
+    ScanFile file{files[i], std::nullopt};
+    if (line < stamps.size()) file = {files[i], stamps[line].stamp, stamps[line].fault};
+    stamped.push_back(std::move(file));
   }
   facts.push_back({what + " stamps", times_name,
                    numbers ? "line N+1 for the file with number N" : "a line a file, in order"});
@@ -118,6 +135,13 @@ std::vector<ScanFile> stamp_by_period(const std::vector<fs::path>& scans,
                    fmt::format("{} s, then every {} s", to_text(first), statements->period_s),
                    statements.reason("period_s", "no times file; period_s is not stated")});
   return stamped;
+}
+
+std::vector<std::optional<geometry::Stamp>> stamps_of(const std::vector<RecordStamp>& records) {
+  std::vector<std::optional<geometry::Stamp>> stamps;
+  stamps.reserve(records.size());
+  for (const RecordStamp& record : records) stamps.push_back(record.stamp);
+  return stamps;
 }
 
 std::vector<std::optional<geometry::Stamp>> stamps_of(const std::vector<ScanFile>& scans) {

@@ -1,5 +1,6 @@
 #include "rawlog/rawlog_source.hpp"
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -10,6 +11,7 @@
 
 #include "rawlog/rawlog_converter.hpp"
 #include "rawlog/rawlog_sensors.hpp"
+#include "recording/arrival_watch.hpp"
 #include "recording/folder_opening.hpp"
 #include "recording/reorder_window.hpp"
 #include "recording/stamp_order.hpp"
@@ -44,6 +46,7 @@ std::string external_folder_of(const fs::path& file) {
 struct RawlogBookmark : Bookmark {
   mrpt_io::RawlogReader::Position position;
   RawlogConverter::State converter;
+  ArrivalWatch watch;
   ReorderWindow window;
   StampOrder order;
   SkippedRecords skipped;
@@ -91,6 +94,7 @@ class RawlogSource : public Source {
   void rewind() override {
     reader_ = std::make_unique<mrpt_io::RawlogReader>(file_);
     converter_.emplace(sensors_, external_folder_);
+    watch_ = {};
     window_ = {};
     order_ = {};
     skipped_ = {};
@@ -101,6 +105,7 @@ class RawlogSource : public Source {
     auto here = std::make_shared<RawlogBookmark>();
     here->position = reader_->position();
     here->converter = converter_->state();
+    here->watch = watch_;
     here->window = window_;
     here->order = order_;
     here->skipped = skipped_;
@@ -112,6 +117,7 @@ class RawlogSource : public Source {
     const auto& there = dynamic_cast<const RawlogBookmark&>(bookmark);
     reader_->return_to(there.position);
     converter_->set_state(there.converter);
+    watch_ = there.watch;
     window_ = there.window;
     order_ = there.order;
     skipped_ = there.skipped;
@@ -123,13 +129,28 @@ class RawlogSource : public Source {
     const auto record = reader_->next();
     if (!record) {
       at_end_ = true;
+      watch_.finish();
+      take_decided();
       if (reader_->fault()) skipped_.add(reader_->fault()->reason, reader_->fault()->place);
       return;
     }
     ConvertedRecord converted = converter_->convert(*record);
     for (auto& skipped : converted.skipped) skipped_.add(skipped.reason, skipped.place);
     for (Measurement& measurement : converted.measurements) {
-      window_.push({std::move(measurement), record->place});
+      watch_.push({std::move(measurement), record->place});
+    }
+    take_decided();
+  }
+
+  void take_decided() {
+    for (auto& rejected : watch_.take_rejected()) skipped_.add(rejected.fault, rejected.place);
+    for (auto& entry : watch_.take_accepted()) window_.push(std::move(entry));
+    for (Fact& step : watch_.take_steps()) {
+      const bool is_new =  // when the recording is not read once more
+          std::none_of(info_.facts.begin(), info_.facts.end(), [&](const Fact& fact) {
+            return fact.name == step.name && fact.value == step.value;
+          });
+      if (is_new) info_.facts.push_back(std::move(step));
     }
   }
 
@@ -168,6 +189,7 @@ class RawlogSource : public Source {
 
   std::unique_ptr<mrpt_io::RawlogReader> reader_;
   std::optional<RawlogConverter> converter_;
+  ArrivalWatch watch_;
   ReorderWindow window_;
   StampOrder order_;
   SkippedRecords skipped_;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "traverse/files/binary_file.hpp"
+#include "traverse/files/text_encoding.hpp"
 
 namespace traverse::dataset {
 
@@ -12,7 +13,10 @@ using files::InputError;
 using files::Place;
 
 FileCursor::FileCursor(std::filesystem::path path)
-    : path_(std::move(path)), bytes_(files::read_bytes(path_)) {}
+    : path_(std::move(path)), bytes_(files::read_bytes(path_)) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes_.data()), bytes_.size());
+  position_ = files::byte_order_mark(text, path_);
+}
 
 std::optional<std::string_view> FileCursor::next_line() {
   if (position_ == bytes_.size()) return std::nullopt;

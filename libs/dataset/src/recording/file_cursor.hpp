@@ -15,7 +15,8 @@ namespace traverse::dataset {
 /// A file in memory that begins with lines of text (a header) and may go on in binary.
 class FileCursor {
  public:
-  /// \throws files::InputError if the file cannot be read.
+  /// Begins behind a byte order mark. \throws files::InputError if the file cannot be read or is
+  /// text in UTF-16.
   explicit FileCursor(std::filesystem::path path);
 
   /// The next line without its end, or nothing at the end of the file.

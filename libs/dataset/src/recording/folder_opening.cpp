@@ -13,6 +13,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kDefault = "default, not stated";
+constexpr const char* kCalibration = "calibration";
+constexpr const char* kNone = "none";
 
 }  // namespace
 
@@ -52,12 +54,11 @@ void set_camera(RecordingInfo& info, const Statements& statements, const fs::pat
   try {
     const CameraCalibration calibration = read_camera_calibration(file);
     info.T_body_camera = calibration.T_camera_lidar.inverse();
-    info.facts.push_back({"calibration",
-                          "camera 0 from " + calibration.how + " of " + file.string(),
+    info.facts.push_back({kCalibration, "camera 0 from " + calibration.how + " of " + file.string(),
                           statements.reason("calibration", "found beside the scans")});
   } catch (const InputError& error) {
     if (stated) throw;
-    info.facts.push_back({"calibration", "none", error.what()});
+    info.facts.push_back({kCalibration, kNone, error.what()});
   }
 }
 
@@ -72,8 +73,13 @@ std::optional<Reference> choose_reference(RecordingInfo& info, const Statements&
   try {
     return load_reference(*found, frames, stamps, info.facts);
   } catch (const InputError& error) {
-    info.facts.push_back({"reference", "none", error.what()});
-    info.refused_reference = error.what();
+    info.reference_refused = error.what();
+    for (const Fact& fact : info.facts) {  // perhaps that is why
+      if (fact.name == kCalibration && fact.value == kNone) {
+        info.reference_refused += "; " + fact.reason;
+      }
+    }
+    info.facts.push_back({"reference", kNone, info.reference_refused});
     return std::nullopt;
   }
 }

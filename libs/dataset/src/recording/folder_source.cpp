@@ -6,8 +6,6 @@
 
 #include "traverse/files/input_error.hpp"
 
-#include "recording/stamp_order.hpp"
-
 namespace traverse::dataset {
 
 namespace {
@@ -18,7 +16,6 @@ using sensors::Measurement;
 struct FolderBookmark : Bookmark {
   std::size_t next_scan = 0;
   std::size_t next_other = 0;
-  StampOrder order;
   SkippedRecords skipped;
 };
 
@@ -41,7 +38,6 @@ class FolderSource : public Source {
   void rewind() override {
     next_scan_ = 0;
     next_other_ = 0;
-    order_ = {};
     skipped_ = {};
   }
 
@@ -54,7 +50,6 @@ class FolderSource : public Source {
     auto here = std::make_shared<FolderBookmark>();
     here->next_scan = next_scan_;
     here->next_other = next_other_;
-    here->order = order_;
     here->skipped = skipped_;
     return here;
   }
@@ -63,15 +58,13 @@ class FolderSource : public Source {
     const auto& there = dynamic_cast<const FolderBookmark&>(bookmark);
     next_scan_ = there.next_scan;
     next_other_ = there.next_other;
-    order_ = there.order;
     skipped_ = there.skipped;
   }
 
   std::optional<std::vector<geometry::Stamp>> listed_scan_stamps() const override {
     std::vector<geometry::Stamp> stamps;
     for (const ScanFile& file : recording_.scans) {
-      const bool in_order = file.stamp && (stamps.empty() || stamps.back() < *file.stamp);
-      if (in_order) stamps.push_back(*file.stamp);
+      if (file.stamp) stamps.push_back(*file.stamp);
     }
     return stamps;
   }
@@ -90,10 +83,6 @@ class FolderSource : public Source {
       skipped_.add(record.fault, record.place);
       return std::nullopt;
     }
-    if (!order_.accept(*record.measurement)) {
-      skipped_.add(StampOrder::kFault, record.place);
-      return std::nullopt;
-    }
     return record.measurement;
   }
 
@@ -101,17 +90,14 @@ class FolderSource : public Source {
     const ScanFile& file = recording_.scans[next_scan_++];
     const std::string place = file.file.lexically_relative(recording_.info.path).generic_string();
     if (!file.stamp) {
-      skipped_.add("no stamp for the scan", place);
+      skipped_.add(file.fault == StampSequence::kNone ? "no stamp for the scan" : file.fault,
+                   place);
       return std::nullopt;
     }
     try {
       LidarScan scan = recording_.read(file);
       if (scan.empty()) {
         skipped_.add("scan without points", place);
-        return std::nullopt;
-      }
-      if (!order_.accept(recording_.lidar, *file.stamp)) {
-        skipped_.add(StampOrder::kFault, place);
         return std::nullopt;
       }
       scan.stamp = *file.stamp;
@@ -127,7 +113,6 @@ class FolderSource : public Source {
   FolderRecording recording_;
   std::size_t next_scan_ = 0;
   std::size_t next_other_ = 0;
-  StampOrder order_;
   SkippedRecords skipped_;
 };
 

@@ -24,8 +24,8 @@ struct SideRecord {
 /// All of a recording that is a folder with one file a scan.
 struct FolderRecording {
   RecordingInfo info;
-  std::string lidar;  ///< label of the sensor that made the scans
-  std::vector<ScanFile> scans;
+  std::string lidar;            ///< label of the sensor that made the scans
+  std::vector<ScanFile> scans;  ///< their stamps grow
   /// Reads one file into a scan. \throws files::InputError if it cannot be used.
   std::function<sensors::LidarScan(const ScanFile&)> read;
   std::vector<SideRecord> others;  ///< in the order of their stamps

@@ -2,9 +2,15 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <numeric>
 #include <utility>
+#include <variant>
 #include <vector>
+
+#include <fmt/format.h>
+
+#include "recording/stamp_sequence.hpp"
 
 namespace traverse::dataset {
 
@@ -50,14 +56,60 @@ class ListedSource final : public Source {
   std::size_t next_ = 0;
 };
 
+/// Of what lines hold: no scans, which are shared.
+void set_stamp(sensors::Measurement& measurement, geometry::Stamp stamp) {
+  std::visit(
+      [&](auto& value) {
+        if constexpr (requires { value.stamp; }) value.stamp = stamp;
+      },
+      measurement);
+}
+
 }  // namespace
 
-void ListedRecords::add(sensors::Measurement measurement, const std::string& place) {
-  if (!order_.accept(measurement)) {
-    skip(StampOrder::kFault, place);
-  } else {
-    measurements_.push_back(std::move(measurement));
+void ListedRecords::add(sensors::Measurement measurement, std::size_t line) {
+  measurements_.push_back(std::move(measurement));
+  lines_.push_back(static_cast<std::uint32_t>(line));
+}
+
+void ListedRecords::settle(std::vector<Fact>& facts) {
+  std::map<std::string, std::vector<std::size_t>> by_sensor;
+  for (std::size_t i = 0; i < measurements_.size(); ++i) {
+    by_sensor[sensors::sensor_of(measurements_[i])].push_back(i);
   }
+  const auto place_of = [&](std::size_t i) { return fmt::format("line {}", lines_[i]); };
+  std::vector<SensorStamps> sensors;
+  for (const auto& [sensor, numbers] : by_sensor) {
+    std::vector<std::optional<geometry::Stamp>> stamps;
+    stamps.reserve(numbers.size());
+    for (const std::size_t i : numbers) stamps.push_back(sensors::stamp_of(measurements_[i]));
+    sensors.push_back({sensor, StampSequence::of(stamps),
+                       [&](std::size_t record) { return place_of(numbers[record]); }});
+  }
+  settle_steps(sensors, facts);
+
+  std::vector<bool> is_kept(measurements_.size(), true);
+  auto sensor = sensors.begin();
+  for (const auto& [name, numbers] : by_sensor) {
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      const RecordStamp& record = sensor->sequence.records[k];
+      if (record.stamp) {
+        set_stamp(measurements_[numbers[k]], *record.stamp);
+      } else {
+        skip(record.fault, place_of(numbers[k]));
+        is_kept[numbers[k]] = false;
+      }
+    }
+    ++sensor;
+  }
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < measurements_.size(); ++i) {
+    if (is_kept[i] && i != end) measurements_[end] = std::move(measurements_[i]);
+    end += is_kept[i] ? 1 : 0;
+  }
+  measurements_.erase(measurements_.begin() + static_cast<std::ptrdiff_t>(end),
+                      measurements_.end());
+  lines_.clear();
 }
 
 void ListedRecords::skip(const std::string& fault, const std::string& place) {
@@ -73,6 +125,7 @@ bool ListedRecords::has(const std::string& sensor) const {
 
 std::unique_ptr<Source> make_listed_source(RecordingInfo info, ListedRecords records,
                                            std::optional<Reference> reference) {
+  if (records.stamps_ == ListedRecords::Stamps::kAsRecorded) records.settle(info.facts);
   return std::make_unique<ListedSource>(std::move(info), std::move(records.measurements_),
                                         std::move(records.skipped_), std::move(reference));
 }

@@ -1,14 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "traverse/dataset/source.hpp"
-
-#include "recording/stamp_order.hpp"
 
 namespace traverse::dataset {
 
@@ -16,9 +16,12 @@ namespace traverse::dataset {
 /// count of its kind is kept, so that memory does not grow with what is of no use.
 class ListedRecords {
  public:
-  /// The order of stamps is checked as the lines stand, so that the fault is at the line that steps
-  /// back.
-  void add(sensors::Measurement measurement, const std::string& place);
+  /// Whether the stamps of each sensor are as the lines have them, or grow already.
+  enum class Stamps { kAsRecorded, kSettled };
+  explicit ListedRecords(Stamps stamps = Stamps::kAsRecorded) : stamps_(stamps) {}
+
+  /// \param line that the measurement stands in
+  void add(sensors::Measurement measurement, std::size_t line);
   /// \param place "line 12"
   void skip(const std::string& fault, const std::string& place);
 
@@ -30,14 +33,18 @@ class ListedRecords {
   friend std::unique_ptr<Source> make_listed_source(RecordingInfo info, ListedRecords records,
                                                     std::optional<Reference> reference);
 
+  /// Makes the stamps of each sensor grow, as the lines stand.
+  void settle(std::vector<Fact>& facts);
+
   std::deque<sensors::Measurement> measurements_;  ///< grows without being copied
-  StampOrder order_;
+  std::deque<std::uint32_t> lines_;                ///< of each
+  Stamps stamps_;
   SkippedRecords skipped_;
   std::string first_fault_;
 };
 
-/// A recording that consists of `records`, brought into the order of their stamps; lines without a
-/// measurement count as skipped before all else.
+/// A recording that consists of `records`, brought into the order of their stamps; what is skipped
+/// counts before all else.
 std::unique_ptr<Source> make_listed_source(RecordingInfo info, ListedRecords records,
                                            std::optional<Reference> reference);
 

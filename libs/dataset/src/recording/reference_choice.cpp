@@ -16,19 +16,25 @@ using geometry::Trajectory;
 namespace {
 
 Trajectory with_stamps(const Trajectory& poses, const PoseStamps& stamps,
-                       const std::filesystem::path& file) {
+                       const std::vector<std::size_t>& numbers, const std::filesystem::path& file) {
   if (stamps.empty()) {
     throw InputError(file, Place::whole_file(), "poses with stamps (TUM or EuRoC)",
                      "poses without");
   }
-  if (poses.size() != stamps.size()) {
+  if (!numbers.empty() && numbers.back() >= stamps.size()) {
+    throw InputError(file, Place::whole_file(),
+                     fmt::format("frame numbers below {}, the number of stamps", stamps.size()),
+                     fmt::format("{}", numbers.back()));
+  }
+  if (numbers.empty() && poses.size() != stamps.size()) {
     throw InputError(file, Place::whole_file(),
                      fmt::format("{} poses, as many as there are stamps", stamps.size()),
                      fmt::format("{}", poses.size()));
   }
   Trajectory result;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (stamps[i]) result.push_back(*stamps[i], poses.pose(i));
+    const auto& stamp = stamps[numbers.empty() ? i : numbers[i]];
+    if (stamp) result.push_back(*stamp, poses.pose(i));
   }
   return result;
 }
@@ -61,11 +67,14 @@ std::optional<ReferenceFile> stated_reference(const Statements& statements) {
 
 Reference load_reference(const ReferenceFile& file, const ReferenceFrames& frames,
                          const PoseStamps& stamps, std::vector<Fact>& facts) {
-  Trajectory poses = read_trajectory(file.file, file.format);
+  TrajectoryReading reading;
+  Trajectory poses = read_trajectory(file.file, file.format, &reading);
   std::string description;
   if (!poses.is_stamped()) {
-    poses = with_stamps(poses, stamps, file.file);
-    description = "pose i has the stamp of scan i; ";
+    poses = with_stamps(poses, stamps, reading.frame_numbers, file.file);
+    description = reading.frame_numbers.empty()
+                      ? "pose i has the stamp of scan i; "
+                      : "a pose has the stamp of the scan of its number; ";
   }
   const auto X = T_body_sensor(file.frame, frames);
   if (!X) {
@@ -86,6 +95,10 @@ Reference load_reference(const ReferenceFile& file, const ReferenceFrames& frame
                                name_of(file.frame));
   }
   facts.push_back({"reference", file.file.string(), file.reason});
+  facts.push_back({"reference read as", std::string(name_of(reading.format)), reading.reason});
+  for (const std::string& note : reading.notes) {
+    facts.push_back({"reference, to be checked", note, file.file.filename().string()});
+  }
   facts.push_back({"reference frame", description, file.frame_reason});
   return {std::move(poses), file.file, std::move(description), north_map};
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -22,19 +23,21 @@ class ReorderWindow {
   struct Entry {
     sensors::Measurement measurement;
     std::string place;
+    std::uint64_t arrival = 0;  ///< its number among all that arrived
   };
 
   void push(Entry entry) {
     newest_ = sensors::stamp_of(entry.measurement);
     scans_ += is_scan(entry) ? 1 : 0;
-    waiting_.emplace(newest_, std::move(entry));
+    const std::pair at(newest_, entry.arrival);
+    waiting_.emplace(at, std::move(entry));
   }
 
   /// The earliest, if it may come out; with `flush` also if it may not.
   std::optional<Entry> pop(bool flush) {
     if (waiting_.empty()) return std::nullopt;
     const auto first = waiting_.begin();
-    const bool is_due = geometry::seconds_between(first->first, newest_) >= kSpan ||
+    const bool is_due = geometry::seconds_between(first->first.first, newest_) >= kSpan ||
                         waiting_.size() > kMost || scans_ > kMostScans;
     if (!is_due && !flush) return std::nullopt;
     Entry entry = std::move(first->second);
@@ -48,7 +51,7 @@ class ReorderWindow {
     return std::holds_alternative<std::shared_ptr<const sensors::LidarScan>>(entry.measurement);
   }
 
-  std::multimap<geometry::Stamp, Entry> waiting_;
+  std::multimap<std::pair<geometry::Stamp, std::uint64_t>, Entry> waiting_;
   std::size_t scans_ = 0;   ///< of lidars that wait
   geometry::Stamp newest_;  ///< of what arrived last
 };

@@ -17,6 +17,8 @@ using geometry::Stamp;
 namespace {
 
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+constexpr const char* kSeconds = "seconds";
+constexpr const char* kDates = "dates and times of day, UTC";
 
 std::string_view trimmed(std::string_view line) {
   constexpr std::string_view kBlanks = " \t\r";
@@ -59,15 +61,31 @@ std::optional<Stamp> parse_date_and_time(std::string_view text) {
 
 }  // namespace
 
-std::optional<Stamp> parse_stamp(std::string_view text) {
-  if (const auto seconds = geometry::parse_stamp_seconds(text)) return seconds;
-  return parse_date_and_time(text);
+std::optional<StampText> parse_stamp(std::string_view text) {
+  if (const auto seconds = geometry::parse_stamp_seconds(text))
+    return StampText{*seconds, kSeconds};
+  if (const auto moment = parse_date_and_time(text)) {
+    return StampText{*moment, kDates};
+  }
+  const auto number = files::parse_double(text);
+  const auto unit = number ? geometry::unix_time_unit(*number) : std::nullopt;
+  const auto stamp = unit ? geometry::parse_unix_time(text, *unit) : std::nullopt;
+  if (!stamp) return std::nullopt;
+  return StampText{*stamp, std::string(name_of(*unit)) + ", told by their size"};
 }
 
-std::vector<std::optional<Stamp>> read_stamps(const std::filesystem::path& file) {
-  // A line may be a single byte, but its stamp takes sixteen.
-  constexpr std::size_t kMostStamps = std::size_t{1} << 22;  // more than four days at 10 Hz
-  std::vector<std::optional<Stamp>> stamps;
+std::string name_with_form(const StampFile& file) {
+  const std::string name = file.file.filename().string();
+  const bool is_usual = file.form.empty() || file.form == kSeconds || file.form == kDates;
+  return is_usual ? name : fmt::format("{} ({})", name, file.form);
+}
+
+StampFile read_stamps(const std::filesystem::path& file) {
+  // A line may be a single byte, but what is made of its stamp takes a hundred.
+  constexpr std::size_t kMostStamps = std::size_t{1} << 20;  // more than a day at 10 Hz
+  StampFile result;
+  result.file = file;
+  auto& stamps = result.stamps;
   const std::string text = files::read_text(file);
   std::size_t blank_lines = 0;  // since the last stamp
   std::size_t number = 0;
@@ -86,9 +104,11 @@ std::vector<std::optional<Stamp>> read_stamps(const std::filesystem::path& file)
                               fmt::format("at most {} stamps", kMostStamps), "more");
     }
     stamps.resize(stamps.size() + std::exchange(blank_lines, 0));
-    stamps.push_back(parse_stamp(line));
+    const auto parsed = parse_stamp(line);
+    stamps.push_back(parsed ? std::optional(parsed->stamp) : std::nullopt);
+    if (parsed && result.form.empty()) result.form = parsed->form;
   }
-  return stamps;
+  return result;
 }
 
 }  // namespace traverse::dataset

@@ -1,6 +1,8 @@
 #include "traverse/dataset/trajectory_files.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -16,6 +18,8 @@
 #include "traverse/files/numbers.hpp"
 #include "traverse/files/text_file.hpp"
 
+#include "trajectories/quaternion_order.hpp"
+
 namespace traverse::dataset {
 
 using files::LineReader;
@@ -28,6 +32,7 @@ namespace {
 
 constexpr std::size_t kTumColumns = 8;
 constexpr std::size_t kKittiColumns = 12;
+constexpr std::size_t kNumberedKittiColumns = kKittiColumns + 1;
 constexpr std::size_t kEurocColumns = 8;  // the least: files of the data set go on with velocities
 constexpr std::string_view kEurocHeader =
     "#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],q_RS_x [],q_RS_y [],q_RS_z "
@@ -69,31 +74,80 @@ Eigen::Vector3d position(const LineReader& reader, const Words& words, std::size
           finite_number(reader, words[first + 2])};
 }
 
-Pose3 pose_from_quaternion(const LineReader& reader, const Eigen::Quaterniond& q,
-                           const Eigen::Vector3d& t) {
-  if (!std::isnormal(q.squaredNorm())) {
-    throw reader.error("a quaternion of length 1", fmt::format("one of length {}", q.norm()));
-  }
-  return {rotation_of(q), t};
-}
+/// Hands the poses of a file with quaternions on; looks at their lengths, at the order of their
+/// columns and at that of the stamps.
+class PosesInOrder {
+ public:
+  PosesInOrder(const PoseTaker& take, bool is_w_first) : take_(take), is_w_first_(is_w_first) {}
 
-/// Hands the poses of a file on, and looks at the order of their stamps.
-struct PosesInOrder {
-  const PoseTaker& take;
-  std::optional<Stamp> last = std::nullopt;
+  /// \param columns of the quaternion, as they stand in the file
+  void add(const LineReader& reader, Stamp stamp, const Eigen::Vector3d& t,
+           const Eigen::Vector4d& columns) {
+    if (last_ && stamp < *last_) {
+      throw reader.error(fmt::format("a stamp not before the last one, {}", to_text(*last_)),
+                         to_text(stamp));
+    }
+    last_ = stamp;
+    require_length(reader, columns.norm());
+    order_.add(t, columns);
+    const Eigen::Quaterniond q =
+        is_w_first_ ? Eigen::Quaterniond(columns[0], columns[1], columns[2], columns[3])
+                    : Eigen::Quaterniond(columns[3], columns[0], columns[1], columns[2]);
+    take_(stamp, {rotation_of(q), t});
+  }
+
+  std::vector<std::string> notes() const {
+    std::vector<std::string> list;
+    if (normalised_ > 0) {
+      list.push_back(fmt::format("{} quaternion{} of length {:.4g} to {:.4g} {} normalised",
+                                 normalised_, normalised_ == 1 ? "" : "s", shortest_, longest_,
+                                 normalised_ == 1 ? "was" : "were"));
+    }
+    if (auto hint = order_.hint(is_w_first_)) list.push_back(std::move(*hint));
+    return list;
+  }
+
+ private:
+  void require_length(const LineReader& reader, double length) {
+    constexpr double kMostOff = 0.1;
+    constexpr double kRounding = 2e-3;  // of files with three decimals
+    if (!(std::abs(length - 1) <= kMostOff)) {
+      throw reader.error("a quaternion of length 1", fmt::format("one of length {:.4g}", length));
+    }
+    if (std::abs(length - 1) <= kRounding) return;
+    shortest_ = normalised_ == 0 ? length : std::min(shortest_, length);
+    longest_ = normalised_ == 0 ? length : std::max(longest_, length);
+    ++normalised_;
+  }
+
+  const PoseTaker& take_;
+  bool is_w_first_;
+  std::optional<Stamp> last_;
+  QuaternionOrder order_;
+  std::size_t normalised_ = 0;
+  double shortest_ = 1;
+  double longest_ = 1;
 };
 
-void add_in_order(PosesInOrder& poses, const LineReader& reader, Stamp stamp, const Pose3& pose) {
-  if (poses.last && stamp < *poses.last) {
-    throw reader.error(fmt::format("a stamp not before the last one, {}", to_text(*poses.last)),
-                       to_text(stamp));
+/// `time` and what it means if it is a Unix time in `units` other than the one expected.
+std::string time_found(std::string_view time, std::string_view instead) {
+  std::string found = files::in_quotes(time);
+  const auto number = files::parse_double(time);
+  const auto unit = number ? geometry::unix_time_unit(*number) : std::nullopt;
+  if (unit) {
+    found += fmt::format(", {} if it is a Unix time: {}", geometry::name_of(*unit), instead);
   }
-  poses.last = stamp;
-  poses.take(stamp, pose);
+  return found;
 }
 
-void read_tum(LineReader& reader, const PoseTaker& take) {
-  PosesInOrder poses{take};
+Eigen::Vector4d quaternion_columns(const LineReader& reader, const Words& words,
+                                   std::size_t first) {
+  const Eigen::Vector3d three = position(reader, words, first);
+  return {three.x(), three.y(), three.z(), finite_number(reader, words[first + 3])};
+}
+
+std::vector<std::string> read_tum(LineReader& reader, const PoseTaker& take) {
+  PosesInOrder poses(take, false);
   while (reader.next()) {
     const Words words = files::split_words(reader.line());
     if (words.size() != kTumColumns) {
@@ -102,44 +156,65 @@ void read_tum(LineReader& reader, const PoseTaker& take) {
     }
     const auto stamp = geometry::parse_stamp_seconds(words[0]);
     if (!stamp) {
-      throw reader.error("a time in seconds, below 9.2e9", files::in_quotes(words[0]));
+      throw reader.error("a time in seconds, below 9.2e9",
+                         time_found(words[0],
+                                    "write seconds, or a EuRoC file, whose times are "
+                                    "nanoseconds (commas between, w before x y z)"));
     }
-    const Eigen::Vector3d t = position(reader, words, 1);
-    const Eigen::Vector3d q_xyz = position(reader, words, 4);
-    const Eigen::Quaterniond q(finite_number(reader, words[7]), q_xyz.x(), q_xyz.y(), q_xyz.z());
-    add_in_order(poses, reader, *stamp, pose_from_quaternion(reader, q, t));
+    poses.add(reader, *stamp, position(reader, words, 1), quaternion_columns(reader, words, 4));
   }
+  return poses.notes();
 }
 
-void read_euroc(LineReader& reader, const PoseTaker& take) {
-  PosesInOrder poses{take};
+std::vector<std::string> read_euroc(LineReader& reader, const PoseTaker& take) {
+  PosesInOrder poses(take, true);
   while (reader.next()) {
     const Words cells = files::split_cells(reader.line(), ',');
     if (cells.size() < kEurocColumns) {
       throw reader.error("at least the 8 columns t,x,y,z,qw,qx,qy,qz of a EuRoC file",
                          fmt::format("{}", cells.size()));
     }
-    const auto nanoseconds = files::parse_integer(cells[0]);
-    if (!nanoseconds) {
-      throw reader.error("a time in whole nanoseconds", files::in_quotes(cells[0]));
+    const auto stamp = geometry::parse_stamp_nanoseconds(cells[0]);
+    if (!stamp) {
+      throw reader.error("a time in whole nanoseconds",
+                         time_found(cells[0],
+                                    "write nanoseconds, or a TUM file, whose times are "
+                                    "seconds (blanks between, w after x y z)"));
     }
-    const Eigen::Vector3d t = position(reader, cells, 1);
-    const Eigen::Vector3d q_xyz = position(reader, cells, 5);
-    const Eigen::Quaterniond q(finite_number(reader, cells[4]), q_xyz.x(), q_xyz.y(), q_xyz.z());
-    add_in_order(poses, reader, Stamp{*nanoseconds}, pose_from_quaternion(reader, q, t));
+    poses.add(reader, *stamp, position(reader, cells, 1), quaternion_columns(reader, cells, 4));
   }
+  return poses.notes();
 }
 
-void read_kitti(LineReader& reader, const PoseTaker& take) {
+/// The frame number before a pose of KITTI-360.
+std::size_t frame_number(const LineReader& reader, std::string_view word,
+                         const std::vector<std::size_t>& before) {
+  const auto number = geometry::parse_stamp_nanoseconds(word);  // 12, but also 1.2e+01
+  const std::int64_t least = before.empty() ? 0 : static_cast<std::int64_t>(before.back()) + 1;
+  if (!number || number->nanoseconds < least) {
+    throw reader.error(fmt::format("a frame number from {} on", least), files::in_quotes(word));
+  }
+  return static_cast<std::size_t>(number->nanoseconds);
+}
+
+std::vector<std::size_t> read_kitti(LineReader& reader, const PoseTaker& take) {
+  std::vector<std::size_t> frame_numbers;
+  std::size_t columns = 0;
   while (reader.next()) {
     const Words words = files::split_words(reader.line());
-    if (words.size() != kKittiColumns) {
-      throw reader.error("the 12 numbers of a 3x4 matrix of a KITTI file",
+    if (columns == 0)
+      columns = words.size() == kNumberedKittiColumns ? words.size() : kKittiColumns;
+    if (words.size() != columns) {
+      throw reader.error(columns == kKittiColumns
+                             ? "the 12 numbers of a 3x4 matrix of a KITTI file"
+                             : "a frame number and the 12 numbers of a 3x4 matrix of a KITTI file",
                          fmt::format("{}", words.size()));
     }
+    const std::size_t begin = columns - kKittiColumns;
+    if (begin > 0) frame_numbers.push_back(frame_number(reader, words[0], frame_numbers));
     Pose3 pose;
     for (Eigen::Index row = 0; row < 3; ++row) {
-      const auto first = static_cast<std::size_t>(4 * row);
+      const std::size_t first = begin + static_cast<std::size_t>(4 * row);
       pose.rotation.row(row) = position(reader, words, first).transpose();
       pose.translation[row] = finite_number(reader, words[first + 3]);
     }
@@ -148,21 +223,47 @@ void read_kitti(LineReader& reader, const PoseTaker& take) {
     }
     take(std::nullopt, pose);
   }
+  return frame_numbers;
 }
 
-void read_as(const std::filesystem::path& file, TrajectoryFormat format, const PoseTaker& take) {
+void read_as(const std::filesystem::path& file, const PoseTaker& take, TrajectoryReading& reading) {
   LineReader reader(file);
-  switch (format) {
+  switch (reading.format) {
     case TrajectoryFormat::kTum:
-      return read_tum(reader, take);
+      reading.notes = read_tum(reader, take);
+      break;
     case TrajectoryFormat::kKitti:
-      return read_kitti(reader, take);
+      reading.frame_numbers = read_kitti(reader, take);
+      break;
     case TrajectoryFormat::kEuroc:
-      return read_euroc(reader, take);
+      reading.notes = read_euroc(reader, take);
+      break;
     case TrajectoryFormat::kAuto:
       break;
   }
-  read_as(file, detect_trajectory_format(file), take);
+}
+
+/// The format of a file by its first line with data, and what in it says so.
+TrajectoryReading detect(const std::filesystem::path& file) {
+  LineReader reader(file);
+  if (!reader.next()) {
+    throw files::InputError(file, files::Place::whole_file(), "at least one pose", "none");
+  }
+  const auto as = [](TrajectoryFormat format, std::string reason) {
+    return TrajectoryReading{format, std::move(reason), {}, {}};
+  };
+  if (reader.line().find(',') != std::string::npos) {
+    return as(TrajectoryFormat::kEuroc, "commas between the columns");
+  }
+  const std::size_t columns = files::split_words(reader.line()).size();
+  if (columns == kTumColumns) return as(TrajectoryFormat::kTum, "8 columns between blanks");
+  if (columns == kKittiColumns) return as(TrajectoryFormat::kKitti, "12 columns between blanks");
+  if (columns == kNumberedKittiColumns) {
+    return as(TrajectoryFormat::kKitti, "12 columns after a frame number");
+  }
+  throw reader.error(
+      "a pose with 8 columns (TUM), 12 columns or 13 with a frame number (KITTI), or commas "
+      "(EuRoC)");
 }
 
 void require_poses(const Trajectory& trajectory) {
@@ -193,35 +294,45 @@ std::string_view name_of(TrajectoryFormat format) {
   return "unknown";
 }
 
-TrajectoryFormat detect_trajectory_format(const std::filesystem::path& file) {
-  LineReader reader(file);
-  if (!reader.next()) {
-    throw files::InputError(file, files::Place::whole_file(), "at least one pose", "none");
+std::string describe(const TrajectoryReading& reading) {
+  constexpr std::array<std::pair<TrajectoryFormat, std::string_view>, 3> kTitles{
+      {{TrajectoryFormat::kTum, "TUM"},
+       {TrajectoryFormat::kKitti, "KITTI"},
+       {TrajectoryFormat::kEuroc, "EuRoC"}}};
+  for (const auto& [format, title] : kTitles) {
+    if (format == reading.format) return fmt::format("{}, {}", title, reading.reason);
   }
-  if (reader.line().find(',') != std::string::npos) return TrajectoryFormat::kEuroc;
-  const std::size_t columns = files::split_words(reader.line()).size();
-  if (columns == kTumColumns) return TrajectoryFormat::kTum;
-  if (columns == kKittiColumns) return TrajectoryFormat::kKitti;
-  throw reader.error("a pose with 8 columns (TUM), 12 columns (KITTI) or commas (EuRoC)");
+  return reading.reason;
 }
 
-void read_poses(const std::filesystem::path& file, TrajectoryFormat format, const PoseTaker& take) {
+TrajectoryFormat detect_trajectory_format(const std::filesystem::path& file) {
+  return detect(file).format;
+}
+
+TrajectoryReading read_poses(const std::filesystem::path& file, TrajectoryFormat format,
+                             const PoseTaker& take) {
+  TrajectoryReading reading{format, "as asked for", {}, {}};
+  if (format == TrajectoryFormat::kAuto) reading = detect(file);
   bool any = false;
-  read_as(file, format, [&](const std::optional<Stamp>& stamp, const Pose3& pose) {
+  const auto take_any = [&](const std::optional<Stamp>& stamp, const Pose3& pose) {
     any = true;
     take(stamp, pose);
-  });
-  if (any) return;
+  };
+  read_as(file, take_any, reading);
+  if (any) return reading;
   throw files::InputError(file, files::Place::whole_file(), "at least one pose", "none");
 }
 
-Trajectory read_trajectory(const std::filesystem::path& file, TrajectoryFormat format) {
+Trajectory read_trajectory(const std::filesystem::path& file, TrajectoryFormat format,
+                           TrajectoryReading* reading) {
   std::vector<Stamp> stamps;
   std::vector<Pose3> poses;
-  read_poses(file, format, [&](const std::optional<Stamp>& stamp, const Pose3& pose) {
-    if (stamp) stamps.push_back(*stamp);
-    poses.push_back(pose);
-  });
+  TrajectoryReading how =
+      read_poses(file, format, [&](const std::optional<Stamp>& stamp, const Pose3& pose) {
+        if (stamp) stamps.push_back(*stamp);
+        poses.push_back(pose);
+      });
+  if (reading != nullptr) *reading = std::move(how);
   return stamps.empty() ? Trajectory::unstamped(std::move(poses))
                         : Trajectory::stamped(std::move(stamps), std::move(poses));
 }

@@ -27,17 +27,19 @@ void add_statistics(std::vector<Cell>& cells, const evaluation::Statistics& s) {
 Table ape_table(const evaluation::Comparison& comparison) {
   Table table("ape", "Absolute pose error",
               {"relation", "rmse", "mean", "median", "std", "min", "max", "pairs"});
-  for (const evaluation::Ape& ape : comparison.ape) {
-    std::vector<Cell> cells{relation_text(ape.relation)};
+  const auto add = [&](const evaluation::Ape& ape, const std::string& alignment) {
+    std::vector<Cell> cells{relation_text(ape.relation) + alignment};
     add_statistics(cells, ape.statistics);
     table.add_row(std::move(cells));
-  }
+  };
+  for (const evaluation::Ape& ape : comparison.ape) add(ape, "");
+  for (const evaluation::Ape& ape : comparison.ape_at_origin) add(ape, ", first poses aligned");
   return table;
 }
 
 Table split_table(const evaluation::ErrorSplit& split) {
   Table table("error_split", "Position error by direction",
-                  {"direction", "rmse [m]", "mean [m]", "largest [m]"});
+              {"direction", "rmse [m]", "mean [m]", "largest [m]"});
   const auto add = [&](const char* name, const evaluation::ErrorPart& part) {
     table.add_row({name, part.rmse_m, part.mean_m, part.max_m});
   };
@@ -114,7 +116,9 @@ Table undefined_table(const evaluation::Comparison& comparison) {
 
 void add_accuracy(const RunData& run, Model& model) {
   const evaluation::Comparison& comparison = *run.evaluation.comparison;
-  model.add_text("association", evaluation::describe(comparison.association));
+  std::string association = evaluation::describe(comparison.association);
+  for (const std::string& warning : comparison.warnings) association += "; warning: " + warning;
+  model.add_text("association", association);
   model.add_text("alignment", evaluation::describe(comparison.alignment, comparison.stamps.size()));
   model.add_table(ape_table(comparison));
   model.page.set("table_error_split", false);

@@ -54,7 +54,7 @@ void add_error_over_time(const RunData& run, FigureMaker& maker) {
   const std::vector<double> times = match_times(run);
   const auto* position = find_ape(comparison, Relation::kTranslation);
   const auto* angle = find_ape(comparison, Relation::kAngleDeg);
-  if (position == nullptr || angle == nullptr) return;
+  if (position == nullptr) return;
   render::TimeSeries series;
   series.panels.push_back(
       {"APE, position",
@@ -62,12 +62,14 @@ void add_error_over_time(const RunData& run, FigureMaker& maker) {
        {{"", times, position->values}},
        render::Level{position->statistics.rmse,
                      fmt::format("rmse {} m", short_number(position->statistics.rmse))}});
-  series.panels.push_back(
-      {"APE, angle",
-       "deg",
-       {{"", times, angle->values}},
-       render::Level{angle->statistics.rmse,
-                     fmt::format("rmse {} deg", short_number(angle->statistics.rmse))}});
+  if (angle != nullptr) {  // not so where a rotation of the alignment is not determined
+    series.panels.push_back(
+        {"APE, angle",
+         "deg",
+         {{"", times, angle->values}},
+         render::Level{angle->statistics.rmse,
+                       fmt::format("rmse {} deg", short_number(angle->statistics.rmse))}});
+  }
   std::vector<double> pair_times;
   const auto* rpe = find_rpe(comparison, Relation::kTranslation, 10);
   if (rpe != nullptr) {

@@ -119,7 +119,7 @@ void add_recording_notices(const RunData& run, std::vector<Notice>& list) {
   if (!run.record.at("evaluation_error").is_null()) {
     list.push_back({"fail", "Not compared", run.record.at("evaluation_error")});
   }
-  const auto refused = run.record.find("refused_reference");
+  const auto refused = run.record.find("reference_refused");
   if (refused != run.record.end() && !refused->is_null()) {
     list.push_back({"warn", "Reference not used", refused->get<std::string>()});
   }

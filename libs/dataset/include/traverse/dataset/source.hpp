@@ -25,6 +25,8 @@ struct Fact {
 /// The name of facts about files that lie beside a recording and may be meant for it, but are not
 /// used: what they are, and as the reason the option that takes them.
 inline constexpr const char* kNotUsed = "not used";
+/// Whether `fact` tells of a clock that was set while the recording was made, or of a pause.
+bool is_clock_step(const Fact& fact);
 
 /// Records that could not be used, by reason, with the first few places of each.
 class SkippedRecords {
@@ -61,9 +63,9 @@ struct RecordingInfo {
   /// Label of the receiver whose fixes the reference is made of: an estimate that takes them too
   /// cannot be judged by it. Empty: none.
   std::string reference_receiver = {};
-  /// Why a reference that was found beside the data is not used: the file and what is wrong with
-  /// it. Empty if there is none such.
-  std::string refused_reference = {};
+  /// Why a reference that stands where the format has it is not used: a file, what was expected in
+  /// it and what was found. Empty: there is none, or it is used.
+  std::string reference_refused = {};
 };
 
 /// The reference trajectory that belongs to a recording.

@@ -4,16 +4,21 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "traverse/geometry/trajectory.hpp"
 
 /// Trajectories as text files, in the three forms that the field exchanges.
 ///
 /// TUM    `t x y z qx qy qz qw`, seconds and metres, blanks between
-/// KITTI  the twelve numbers of the upper 3x4 of T_map_body, row after row; no stamps
-/// EuRoC  `t,x,y,z,qw,qx,qy,qz`, integer nanoseconds, commas between; further columns are allowed
+/// KITTI  the twelve numbers of the upper 3x4 of T_map_body, row after row; no stamps. A frame
+/// number
+///        may stand before them, as in KITTI-360
+/// EuRoC  `t,x,y,z,qw,qx,qy,qz`, whole nanoseconds (also as 1.7e+18), commas between; further
+///        columns are allowed
 ///
 /// '#' begins a comment line. A file that is written and read back has the same stamps to the
 /// nanosecond and the same positions to the bit, KITTI files also the same rotation. Where a
@@ -34,24 +39,41 @@ inline constexpr std::array<std::pair<std::string_view, TrajectoryFormat>, 4>
 /// "auto", "tum", "kitti", "euroc".
 std::string_view name_of(TrajectoryFormat format);
 
+/// As what a file of a trajectory was read.
+struct TrajectoryReading {
+  TrajectoryFormat format = TrajectoryFormat::kAuto;
+  std::string reason;  ///< why this format: "8 columns between blanks", "as asked for"
+  /// What a reader may want to know: quaternions that had to be normalised, their columns perhaps
+  /// in another order. Whole sentences without a full stop.
+  std::vector<std::string> notes;
+  /// Of KITTI files that have them; they grow.
+  std::vector<std::size_t> frame_numbers;
+};
+/// "TUM, 8 columns between blanks".
+std::string describe(const TrajectoryReading& reading);
+
 /// The format of `file`, from its first line with data: commas make it EuRoC, eight columns TUM,
-/// twelve KITTI. \throws files::InputError if it is none of these.
+/// twelve, or thirteen with a frame number, KITTI. \throws files::InputError if it is none of
+/// these.
 TrajectoryFormat detect_trajectory_format(const std::filesystem::path& file);
 
 /// Reads T_map_body; kAuto finds out the format. Quaternions are normalised, KITTI's numbers are
 /// kept as they stand.
+/// \param reading if not null, gets how the file was read
 /// \throws files::InputError naming the line, what was expected there and what was found: columns
-/// missing or surplus, a word that is no finite number, a quaternion of length zero, nine numbers
-/// that are no rotation (to 1e-2), a stamp before its predecessor (equal ones are allowed), no
-/// pose.
-geometry::Trajectory read_trajectory(const std::filesystem::path& file, TrajectoryFormat format);
+/// missing or surplus, a word that is no finite number, a quaternion whose length is off by more
+/// than a tenth, nine numbers that are no rotation (to 1e-2), a stamp before its predecessor (equal
+/// ones are allowed), no pose.
+geometry::Trajectory read_trajectory(const std::filesystem::path& file, TrajectoryFormat format,
+                                     TrajectoryReading* reading = nullptr);
 
 /// Takes the poses of a file one after the other, with their stamps where the format has them.
 using PoseTaker =
     std::function<void(const std::optional<geometry::Stamp>&, const geometry::Pose3& T_map_body)>;
 
 /// The same without keeping the poses. \throws as read_trajectory(), after those before were taken
-void read_poses(const std::filesystem::path& file, TrajectoryFormat format, const PoseTaker& take);
+TrajectoryReading read_poses(const std::filesystem::path& file, TrajectoryFormat format,
+                             const PoseTaker& take);
 
 /// Write T_map_body; the file appears whole or not at all. A trajectory without poses gives a file
 /// without poses.

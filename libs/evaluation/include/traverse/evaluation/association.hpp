@@ -41,11 +41,15 @@ struct Association {
 
 /// Finds for each pose of the shorter trajectory (of two equally long ones: the estimate) the pose
 /// of the other that is nearest in time, the first of several, and keeps it if it is near enough.
-/// Not one to one: two poses may get the same partner. Nothing is interpolated. Differences are
-/// taken in whole nanoseconds. Source: evo, associate_trajectories.
-/// \throws EvaluationError if a trajectory is empty, only one has stamps, stamps go back, no pose
-/// finds a partner (with both spans and the closest difference), or trajectories without stamps
-/// differ in size; std::invalid_argument for options that are negative or not finite.
+/// Not one to one: two poses may be matched with the same one. Nothing is interpolated.
+///
+/// Which is nearest, and what is near enough, is decided as evo does, on doubles of seconds: at
+/// today's Unix time they are 0.24 microseconds apart, and that decides between two stamps that are
+/// equally near, or at the limit itself. The longer trajectory is moved by the offset (the
+/// reference by its opposite). Source: evo, associate_trajectories. \throws EvaluationError if a
+/// trajectory is empty, only one has stamps, stamps go back, no pose finds a partner (with both
+/// spans and the closest difference), or trajectories without stamps differ in size;
+/// std::invalid_argument for options that are negative or not finite.
 Association associate(const TrajectoryView& estimate, const TrajectoryView& reference,
                       const AssociationOptions& options);
 

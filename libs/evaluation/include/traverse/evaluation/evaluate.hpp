@@ -41,6 +41,8 @@ struct TrajectoryFacts {
   double path_m = 0;
   std::optional<geometry::Stamp> first;  ///< nothing without stamps
   std::optional<geometry::Stamp> last;
+  std::string read_as = {};             ///< "TUM, 8 columns between blanks"; empty: from no file
+  std::vector<std::string> notes = {};  ///< what its file gave rise to
 };
 
 /// A figure that the trajectories do not define.
@@ -57,12 +59,16 @@ struct Comparison {
   std::vector<geometry::Stamp> stamps;  ///< of the estimate's poses; empty when matched by index
   std::vector<double> distances_m;      ///< along the reference from the first match
   Alignment alignment;
-  std::vector<Ape> ape;
+  std::vector<Ape> ape;  ///< of the relations that the alignment determines
+  /// Aligned at the first pose instead, of all relations, where the alignment is not determined.
+  std::vector<Ape> ape_at_origin;
   std::optional<ErrorSplit> split;  ///< of the position errors; nothing where the reference stands
   std::vector<Rpe> rpe;             ///< option after option, each with all relations
   std::optional<KittiDrift> kitti;  ///< of the poses as they are, not aligned
   PathFigures path;                 ///< of the poses as they are, not aligned
   std::vector<Undefined> undefined;
+  /// Why the figures may stand for little: few poses that found a match.
+  std::vector<std::string> warnings;
 };
 
 /// The errors of that relation, or null if they were not computed.

@@ -13,14 +13,18 @@ namespace traverse::evaluation {
 /// shortest text that reads back to the same bits; what is not defined is null, never NaN.
 ///
 /// {
-///   "estimate": {"name", "poses", "path_m", "first_stamp_ns", "last_stamp_ns"},
+///   "estimate": {"name", "poses", "path_m", "first_stamp_ns", "last_stamp_ns", "read_as": null |
+///                TEXT, "notes": []},
 ///   "reference": the same | null,
 ///   "association": null | {"by": "stamp|index", "pairs", "max_time_difference", "time_offset",
 ///                          "largest_time_difference", "how",
 ///                          "per_pair": {"estimate": [], "reference": [], "time_difference_s": [],
 ///                                       "stamp_ns": [] | null, "distance_m": []}},
-///   "alignment": null | {"mode", "scale", "T_reference_estimate": 4x4, "poses_used", "how"},
+///   "alignment": null | {"mode", "scale", "T_reference_estimate": 4x4, "poses_used",
+///                        "undetermined": "nothing|rotation about the line|rotation|...",
+///                        "reason": null | TEXT, "how"},
 ///   "ape": {RELATION: STATS + {"unit", "how", "per_pair": {"value": []}}},
+///   "ape_at_origin": the same, only where something of the alignment is undetermined,
 ///   "split": null | {"along": PART, "across": PART, "up": PART, "unit": "m", "poses",
 ///                    "alternating_m": null | number, "how"},
 ///   "rpe": [{"delta", "unit": "f|m|deg|rad", "all_pairs", "pairs_from", "relation", "stats":
@@ -39,7 +43,8 @@ namespace traverse::evaluation {
 ///            "how"},
 ///   "consistency": null | {"mme", "mpv_m", "queries", "scans", "points", "points_are", "how",
 ///                          "point_to_plane": null | {"queries", "mean_m", "median_m", "p90_m"}},
-///   "undefined": [{"metric", "reason"}]
+///   "undefined": [{"metric", "reason"}],
+///   "warnings": []
 /// }
 /// STATS: {"rmse", "mean", "median", "std", "min", "max", "sse", "count"}; PART: {"rmse", "mean",
 /// "max"}. Files from before version 0.2 have no "split". Times are seconds,

@@ -10,13 +10,16 @@ namespace traverse::evaluation {
 /// "514 pairs by stamp, at most 0.01 s apart", "154 pairs by index".
 std::string describe(const Association& association);
 /// "SE(3) alignment", "Sim(3) alignment on the first 50 poses, scale 0.980412", "no alignment".
-/// Names the poses used where they are fewer than `matches`.
+/// Names the poses used where they are fewer than `matches`, and what is not determined: "SE(3)
+/// alignment, rotation about the line not determined".
 std::string describe(const Alignment& alignment, std::size_t matches);
 /// "10 frames, all pairs of the estimate".
 std::string describe(const RpeOptions& options);
 
 /// "APE translation part, SE(3) alignment, 514 pairs".
 std::string title(const Ape& ape, const Comparison& comparison);
+/// "APE translation part, aligned at the first pose, 514 pairs", of Comparison::ape_at_origin.
+std::string title_at_origin(const Ape& ape);
 /// "RPE translation part, 10 frames, consecutive pairs of the estimate, SE(3) alignment, 51 pairs".
 std::string title(const Rpe& rpe, const Comparison& comparison);
 /// "position error along, across and up the path, SE(3) alignment, 514 pairs".
