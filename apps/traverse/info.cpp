@@ -1,11 +1,15 @@
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "traverse/plausibility/stream_checks.hpp"
+
 #include "commands.hpp"
 #include "json_output.hpp"
+#include "odometry_probe.hpp"
 #include "recording_formats_report.hpp"
 #include "recording_options.hpp"
 #include "recording_progress.hpp"
@@ -50,13 +54,19 @@ void run_info(const InfoOptions& options) {
   }
   const auto source = options.recording.open();
   RecordingProgress progress("reading", *source);
-  const dataset::RecordingSurvey survey =
-      dataset::survey(*source, [&](const auto& measurement) { progress.update(measurement); });
+  plausibility::StreamChecks checks(source->info());
+  OdometryProbe probe(*source, checks);
+  const dataset::RecordingSurvey survey = dataset::survey(*source, [&](const auto& measurement) {
+    progress.update(measurement);
+    checks.take(measurement);
+    probe.take(measurement);
+  });
   progress.finish();
+  const std::vector<plausibility::Finding> findings = checks.findings();
   if (!options.json.empty()) {
-    write_json_output(options.json, recording_json(*source, survey));
+    write_json_output(options.json, recording_json(*source, survey, findings));
   }
-  fmt::print("{}", recording_text(*source, survey));
+  fmt::print("{}", recording_text(*source, survey, findings));
 }
 
 }  // namespace
@@ -64,8 +74,8 @@ void run_info(const InfoOptions& options) {
 void add_info(CLI::App& app) {
   CLI::App* command = app.add_subcommand("info",
                                          "Shows a run folder, or reads a recording and says what "
-                                         "is in it, what is wrong with it, and what is "
-                                         "taken for true about it");
+                                         "is in it, what is wrong with it, what in it "
+                                         "contradicts itself, and what is taken for true about it");
   auto options = std::make_shared<InfoOptions>();
   add_recording_options(*command, options->recording);
   CLI::Option* recording = command->get_option("RECORDING")->required(false);

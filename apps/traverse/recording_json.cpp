@@ -65,7 +65,8 @@ ordered_json skipped_json(const dataset::SkippedRecords& skipped) {
 
 }  // namespace
 
-std::string recording_json(const dataset::Source& source, const RecordingSurvey& survey) {
+std::string recording_json(const dataset::Source& source, const RecordingSurvey& survey,
+                           const std::vector<plausibility::Finding>& findings) {
   const dataset::RecordingInfo& info = source.info();
   ordered_json json{{"path", info.path.string()},
                     {"format", info.format},
@@ -91,6 +92,16 @@ std::string recording_json(const dataset::Source& source, const RecordingSurvey&
                          {"share_covered", survey.reference->share_covered}};
   }
   json["skipped"] = skipped_json(source.skipped());
+  json["contradictions"] = ordered_json::array();
+  for (const plausibility::Finding& finding : findings) {
+    json["contradictions"].push_back({{"code", finding.code},
+                                      {"severity", name_of(finding.severity)},
+                                      {"accepted", finding.is_accepted},
+                                      {"sensor", finding.sensor},
+                                      {"figure", finding.figure},
+                                      {"consequence", finding.consequence},
+                                      {"statement", finding.statement}});
+  }
   // Names and labels come from foreign files: bytes that are not UTF-8 are replaced.
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }

@@ -112,6 +112,22 @@ std::string facts_text(const Source& source) {
   return "\nTaken for true\n" + table.text(kIndent);
 }
 
+std::string findings_text(const std::vector<plausibility::Finding>& findings) {
+  if (findings.empty()) return "\nContradictions: none\n";
+  std::string text = fmt::format("\nContradictions: {}\n", findings.size());
+  for (const plausibility::Finding& finding : findings) {
+    const bool refuses = finding.severity == plausibility::Severity::kRefuse;
+    text += fmt::format("  {}\n", plausibility::to_text(finding));
+    if (finding.is_accepted) {
+      text += "      accepted\n";
+    } else if (refuses) {
+      text += fmt::format("      a run that depends on it is refused without --accept {}\n",
+                          finding.code);
+    }
+  }
+  return text;
+}
+
 std::string reference_text(const RecordingSurvey& survey) {
   if (!survey.reference) return "\nReference: none\n";
   const auto& reference = *survey.reference;
@@ -136,7 +152,8 @@ std::string skipped_text(const dataset::SkippedRecords& skipped) {
 
 }  // namespace
 
-std::string recording_text(const Source& source, const RecordingSurvey& survey) {
+std::string recording_text(const Source& source, const RecordingSurvey& survey,
+                           const std::vector<plausibility::Finding>& findings) {
   const dataset::RecordingInfo& info = source.info();
   std::string text = fmt::format("{}  ({}, {})\n{} records in {:.3f} s\n\n", info.name, info.format,
                                  info.path.string(), survey.measurements(), survey.duration_s());
@@ -144,7 +161,8 @@ std::string recording_text(const Source& source, const RecordingSurvey& survey) 
   for (const StreamSurvey& stream : survey.streams) {
     if (stream.lidar) text += lidar_text(stream.sensor, *stream.lidar);
   }
-  return text + facts_text(source) + reference_text(survey) + skipped_text(source.skipped());
+  return text + facts_text(source) + reference_text(survey) + skipped_text(source.skipped()) +
+         findings_text(findings);
 }
 
 }  // namespace traverse::app

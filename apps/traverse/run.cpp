@@ -23,6 +23,7 @@
 #include "traverse/pipeline/run_destination.hpp"
 #include "traverse/pipeline/run_digests.hpp"
 #include "traverse/pipeline/utm_trajectory.hpp"
+#include "traverse/plausibility/stream_checks.hpp"
 
 #include "budget_option.hpp"
 #include "command_line.hpp"
@@ -50,6 +51,7 @@ struct RunArguments {
   std::optional<bool> slam;
   std::string map;  ///< run folder to localise in; empty: none
   std::vector<double> start;
+  std::vector<std::string> accepted;  ///< codes of contradictions
   std::size_t first = 0;
   std::optional<std::size_t> last;
   int threads = 1;
@@ -202,6 +204,10 @@ void add_statements_and_settings(RunArguments& arguments) {
   }
   if (!arguments.reference_frame.empty()) {
     arguments.recording.statements.push_back("reference.frame=" + arguments.reference_frame);
+  }
+  if (!arguments.accepted.empty()) {
+    arguments.recording.statements.push_back(
+        fmt::format("accept={}", fmt::join(arguments.accepted, " ")));
   }
   if (!arguments.gnss_outages.empty()) {
     arguments.preset.assignments.push_back("outage.spells_s=[" + arguments.gnss_outages + "]");
@@ -378,6 +384,12 @@ constexpr const char* kLocalizeExamples = R"(Examples:
 The trajectory is in the map's frame. Where the place was found or lost stands in the report (what was
 decided) and in frames.csv, columns located and fits_map.)";
 
+std::vector<std::string> contradiction_codes() {
+  std::vector<std::string> codes;
+  for (const auto& check : plausibility::list_checks()) codes.push_back(check.code);
+  return codes;
+}
+
 /// The options that every command has which estimates a recording.
 CLI::App* add_estimating(CLI::App& app, const std::string& name, const std::string& description,
                          const std::shared_ptr<RunArguments>& arguments) {
@@ -403,6 +415,12 @@ CLI::App* add_estimating(CLI::App& app, const std::string& name, const std::stri
   run->add_option("--threads", arguments->threads, "threads; the result does not depend on it")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
+  run->add_option(
+         "--accept", arguments->accepted,
+         "go on although the recording contradicts itself in this way; the code is in the message")
+      ->type_name("CODE")
+      ->check(CLI::IsMember(contradiction_codes()))
+      ->allow_extra_args(false);
   run->add_flag("!--no-report", arguments->report, "no pictures and no report.html");
   run->add_flag("--utm", arguments->utm,
                 "write the trajectory in UTM coordinates too (RUN/trajectory_utm.tum)");

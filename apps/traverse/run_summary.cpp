@@ -118,6 +118,9 @@ void print_run_summary(const pipeline::RunRecord& record, const pipeline::RunFol
   if (const std::string& refused = record.recording.reference_refused; !refused.empty()) {
     print_line("reference", "not used: " + refused);
   }
+  for (const plausibility::Finding& finding : record.contradictions) {
+    print_line(finding.is_accepted ? "accepted" : "warning", plausibility::to_text(finding));
+  }
   if (evaluation.comparison) print_accuracy(*evaluation.comparison);
   print_sensors(record);
   if (!record.reference_file) print_unused(record.recording);

@@ -93,7 +93,7 @@ TEST(PointCloudFolder, RelativeTimesAreFromTheStamp) {
     EXPECT_THAT(scan->time, ElementsAre(0, FloatEq(0.05F), FloatEq(0.1F)));
     EXPECT_EQ(facts[0], nanoseconds ? "field 't', nanoseconds, after the scan's stamp"
                                     : "field 'time', seconds, after the scan's stamp");
-    EXPECT_THAT(facts[1], HasSubstr("magnitudes in the last scan"));
+    EXPECT_THAT(facts[1], HasSubstr("in a scan, and scans are 0.1 s apart"));
     EXPECT_EQ(facts[2], "stored with the points");
   }
 }
@@ -135,6 +135,88 @@ TEST(PointCloudFolder, MicrosecondsAndNanosecondsAsFloatsShowByTheirSpan) {
   cloud = three_points();
   cloud.add("time", std::vector<double>{0, 5e7, 1e8});
   EXPECT_THAT(scan_of(cloud)->time, ElementsAre(0, FloatEq(0.05F), FloatEq(0.1F)));
+}
+
+/// Scans of a sweep of 0.1 s, so far apart, whose times count `unit_s`.
+template <typename Number>
+std::unique_ptr<Source> with_times_in(const fs::path& folder, double unit_s, double interval_s,
+                                      std::vector<std::string> statements = {}) {
+  std::string times;
+  for (int i = 0; i < 4; ++i) {
+    PointCloud cloud = three_points();
+    std::vector<Number> values;
+    for (const double seconds : {0.0, 0.05, 0.1}) {
+      values.push_back(static_cast<Number>(std::round(seconds / unit_s * 1e6) / 1e6));
+    }
+    cloud.add("time", values);
+    write_pcd(folder / fmt::format("{}.pcd", i), cloud);
+    times += fmt::format("{}\n", 100 + i * interval_s);
+  }
+  files::write_text(folder / "times.txt", times);
+  return open(folder, std::move(statements));
+}
+
+TEST(PointCloudFolder, TheUnitOfTimesIsToldByTheTimeToTheNextScan) {
+  for (const double interval_s : {0.05, 0.1, 0.5, 20.0}) {  // of every n-th scan too
+    for (const double unit_s : {1e-3, 1e-6, 1e-9}) {
+      const TemporaryFolder folder;
+      const auto scan = [&](auto number) {
+        const auto source =
+            with_times_in<decltype(number)>(folder.path(), unit_s, std::max(interval_s, 0.07));
+        return read_scans(*source).at(0);
+      };
+      EXPECT_THAT(scan(float{})->time, ElementsAre(0, FloatEq(0.05F), FloatEq(0.1F))) << unit_s;
+      EXPECT_THAT(scan(double{})->time, ElementsAre(0, FloatEq(0.05F), FloatEq(0.1F))) << unit_s;
+      EXPECT_THAT(scan(std::uint32_t{})->time, ElementsAre(0, FloatEq(0.05F), FloatEq(0.1F)))
+          << unit_s;
+      if (unit_s < 1e-3) continue;
+      EXPECT_THAT(scan(std::uint16_t{})->time, ElementsAre(0, FloatEq(0.05F), FloatEq(0.1F)));
+      EXPECT_THAT(scan(std::uint8_t{})->time, ElementsAre(0, FloatEq(0.05F), FloatEq(0.1F)));
+    }
+    const TemporaryFolder folder;
+    const auto source = with_times_in<float>(folder.path(), 1, std::max(interval_s, 0.07));
+    EXPECT_THAT(read_scans(*source).at(0)->time, ElementsAre(0, FloatEq(0.05F), FloatEq(0.1F)));
+  }
+}
+
+TEST(PointCloudFolder, AStatedUnitOfTimesIsStronger) {
+  const TemporaryFolder folder;
+  const auto source = with_times_in<float>(folder.path(), 1e-3, 0.1, {"point_time_unit_s=0.0005"});
+  EXPECT_THAT(read_scans(*source).at(0)->time, ElementsAre(0, FloatEq(0.025F), FloatEq(0.05F)));
+  EXPECT_THAT(fact_reason(*source, "time field"), HasSubstr("point_time_unit_s"));
+}
+
+TEST(PointCloudFolder, AScanWithOneTimeForAllPointsIsSkipped) {
+  for (const int bad : {0, 2, 3}) {  // the last one is what the others are judged by
+    const TemporaryFolder folder;
+    static_cast<void>(with_times_in<float>(folder.path(), 1, 0.1));
+    PointCloud cloud = three_points();
+    cloud.add("time", std::vector<float>{0.02F, 0.02F, 0.02F});
+    write_pcd(folder / fmt::format("{}.pcd", bad), cloud);
+    const auto source = open(folder.path());
+    EXPECT_EQ(read_scans(*source).size(), 3U) << bad;
+    EXPECT_THAT(skipped_in(*source), ElementsAre(HasSubstr("points measured one after the other")));
+  }
+}
+
+TEST(PointCloudFolder, NamesOfTimeFieldsOfTheField) {
+  for (const char* name : {"t", "offset_time", "scalar_timestamp", "timestamp", "scalar_time"}) {
+    PointCloud cloud = three_points();
+    cloud.add(name, std::vector<std::uint32_t>{0, 50'000'000, 100'000'000});
+    EXPECT_THAT(scan_of(cloud)->time, ElementsAre(0, FloatEq(0.05F), FloatEq(0.1F))) << name;
+  }
+  PointCloud cloud = three_points();
+  cloud.add("timestamp_nsec", std::vector<std::uint32_t>{0, 50'000'000, 100'000'000});
+  std::vector<std::string> facts;
+  EXPECT_THAT(scan_of(cloud, "1", &facts)->time, IsEmpty());
+  EXPECT_THAT(facts[1], HasSubstr("'timestamp_nsec' looks like one"));
+}
+
+TEST(PointCloudFolder, CoordinatesInAStatedUnit) {
+  const TemporaryFolder folder;
+  write_pcd(folder / "1.pcd", three_points(500));
+  const auto source = open(folder.path(), {"point_unit_m=0.001"});
+  EXPECT_THAT(read_scans(*source).at(0)->x, ElementsAre(0.5F, FloatEq(0.001F), FloatEq(0.002F)));
 }
 
 TEST(PointCloudFolder, TimesThatTellNothingAreNotUsed) {

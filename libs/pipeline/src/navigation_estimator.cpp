@@ -138,6 +138,11 @@ const std::vector<std::string>& NavigationEstimator::columns() const {
   return kNames;
 }
 
+bool NavigationEstimator::depends_on(SensorKind kind) const {
+  return kind == SensorKind::kImu || (kind == SensorKind::kGnss && options_.gnss.use) ||
+         (kind == SensorKind::kWheels && options_.wheels.use);
+}
+
 std::vector<PoseFrame> NavigationEstimator::process(const sensors::Measurement& measurement) {
   const auto begin = std::chrono::steady_clock::now();
   std::vector<NavFrame> frames;

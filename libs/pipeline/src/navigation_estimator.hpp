@@ -21,6 +21,7 @@ class NavigationEstimator final : public Estimator {
                       const dataset::RecordingInfo& recording);
 
   const std::vector<std::string>& columns() const override;
+  bool depends_on(sensors::SensorKind kind) const override;
   std::vector<PoseFrame> process(const sensors::Measurement& measurement) override;
   /// \throws std::runtime_error saying why navigation never began.
   std::vector<PoseFrame> finish() override;

@@ -50,6 +50,12 @@ void require_counts(const JsonValue& record) {
     require_count(skipped[reason]["count"]);
     static_cast<void>(skipped[reason]["first"].texts());
   }
+  if (record.has("contradictions")) {
+    for_each_element(record["contradictions"], [](const JsonValue& found) {
+      require_texts(found, {"code", "severity", "sensor", "figure", "consequence", "statement"});
+      static_cast<void>(found["accepted"].boolean());
+    });
+  }
   require_count(record["map"]["points"]);
   require_count(record["map"]["keyframes"]);
   require_within(record["map"]["voxel_m"], 0, 1e6);

@@ -12,6 +12,7 @@
 #include <variant>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "traverse/dataset/point_cloud_file.hpp"
 #include "traverse/dataset/recording_slice.hpp"
@@ -24,6 +25,8 @@
 #include "traverse/mapping/map_origin.hpp"
 #include "traverse/optimization/jacobian_audit.hpp"
 #include "traverse/pipeline/factor_kinds.hpp"
+#include "traverse/plausibility/reference_checks.hpp"
+#include "traverse/plausibility/stream_checks.hpp"
 #include "traverse/slam/keyframe_file.hpp"
 #include "traverse/slam/slam.hpp"
 
@@ -59,20 +62,76 @@ class Steps {
   std::string reason_;
 };
 
+/// Scans read before a run that does not depend on them: a few seconds' work at most.
+constexpr std::size_t kMaxSurveyedScans = 60;
+
 bool is_stopped(const RunObserver& observer) { return observer.stop != nullptr && *observer.stop; }
 
 /// Thrown through the reading loop when the user stops the run.
 class Stopped : public std::exception {};
 
+/// What contradicts what, as far as it matters to the estimator: of a sensor that it does not
+/// depend on a warning is enough.
+std::vector<plausibility::Finding> weighed(std::vector<plausibility::Finding> findings,
+                                           const dataset::RecordingInfo& recording,
+                                           const Estimator& estimator) {
+  for (plausibility::Finding& finding : findings) {
+    const sensors::MountedSensor* sensor = recording.rig.find(finding.sensor);
+    const bool matters = sensor == nullptr || estimator.depends_on(sensor->kind);
+    if (!matters) finding.severity = plausibility::Severity::kWarn;
+  }
+  return findings;
+}
+
+/// Of the same contradiction the later figure counts, which is of more of the recording.
+void add_if_new(plausibility::Finding finding, std::vector<plausibility::Finding>& findings) {
+  for (plausibility::Finding& known : findings) {
+    if (known.code != finding.code || known.sensor != finding.sensor) continue;
+    known = std::move(finding);
+    return;
+  }
+  findings.push_back(std::move(finding));
+}
+
+/// Why a run with these findings would be garbage; empty if it would not.
+std::string why_refused(const std::vector<plausibility::Finding>& findings,
+                        const std::filesystem::path& recording) {
+  std::vector<std::string> lines;
+  for (const plausibility::Finding& finding : findings) {
+    const bool refuses =
+        finding.severity == plausibility::Severity::kRefuse && !finding.is_accepted;
+    if (refuses) {
+      lines.push_back(fmt::format("\n  {} Or go on all the same: --accept {}",
+                                  plausibility::to_text(finding), finding.code));
+    }
+  }
+  if (lines.empty()) return {};
+  return fmt::format(
+      "{}: the recording contradicts itself, and its result would be worth nothing:{}",
+      recording.string(), fmt::join(lines, ""));
+}
+
+/// Looks at the beginning of the recording before anything is estimated.
+std::vector<plausibility::Finding> survey_beginning(dataset::Source& source,
+                                                    const Estimator& estimator) {
+  plausibility::SurveyLimits limits;
+  // Where other sensors matter they have to move before they can contradict each other.
+  if (!estimator.depends_on(sensors::SensorKind::kLidar)) limits.max_scans = kMaxSurveyedScans;
+  return weighed(plausibility::survey(source, limits), source.info(), estimator);
+}
+
 /// Reads, estimates and collects, to the end or as far as it goes.
 void estimate_all(dataset::Source& source, Estimator& estimator, const RunOptions& options,
-                  const RunObserver& observer, RunResults& results, ReadingCount& readings,
-                  Steps& attempt) {
+                  const RunObserver& observer, plausibility::StreamChecks& checks,
+                  RunResults& results, ReadingCount& readings, Steps& attempt) {
   WaitingScans waiting;
   std::size_t done = 0;
+  // What is estimated from other sensors cannot be held against them.
+  const bool is_odometry = estimator.depends_on(sensors::SensorKind::kLidar);
   const auto collect = [&](const std::vector<PoseFrame>& frames) {
     for (const PoseFrame& frame : frames) {
       results.add(frame, waiting.take(frame.stamp), &frame == &frames.back());
+      if (is_odometry) checks.take_pose(frame.stamp, frame.T_map_body);
       observer.frame(++done);
     }
   };
@@ -83,6 +142,7 @@ void estimate_all(dataset::Source& source, Estimator& estimator, const RunOption
                                    if (is_stopped(observer)) throw Stopped();
                                    readings.add(measurement);
                                    waiting.add(measurement);
+                                   checks.take(measurement);
                                    collect(estimator.process(measurement));
                                  });
     } catch (const Stopped&) {  // NOLINT(bugprone-empty-catch): what is done is collected below
@@ -147,19 +207,40 @@ std::vector<SensorUse> sensor_use(const Estimator& estimator, const sensors::Rig
   return uses;
 }
 
+/// What speaks against the run; what the user has accepted does not.
+std::vector<Contradiction> against_the_run(const std::vector<plausibility::Finding>& findings) {
+  std::vector<Contradiction> list;
+  for (const plausibility::Finding& finding : findings) {
+    if (finding.is_accepted) continue;
+    list.push_back({finding.code, Health::kDegraded,
+                    finding.figure + ". " + finding.consequence + ".", finding.statement});
+  }
+  return list;
+}
+
 RunHealth assess_run(const dataset::Source& source, const Estimator& estimator,
                      const RunResults& results, const ReadingCount& readings,
-                     const evaluation::Evaluation& evaluation) {
+                     const evaluation::Evaluation& evaluation,
+                     const std::vector<plausibility::Finding>& contradictions) {
   HealthEvidence evidence{.frames = results.frames(), .T_map_body = results.trajectory()};
   if (source.reference()) evidence.reference = &source.reference()->T_map_body;
   evidence.evaluation = &evaluation;
   evidence.sensors = sensor_use(estimator, source.info().rig, readings);
   evidence.troubles = estimator.troubles();
+  evidence.contradictions = against_the_run(contradictions);
   evidence.skipped_records = source.skipped().total();
   evidence.read_records = readings.total();
   evidence.recording_first = readings.first();
   evidence.recording_last = readings.last();
   return assess(evidence);
+}
+
+void check_reference(const dataset::Source& source, const geometry::Trajectory& trajectory,
+                     RunRecord& record) {
+  if (!source.reference()) return;
+  auto findings = plausibility::reference_findings(trajectory, source.reference()->T_map_body);
+  plausibility::mark_accepted(source.info().accepted_contradictions, findings);
+  for (auto& finding : findings) add_if_new(std::move(finding), record.contradictions);
 }
 
 /// Accuracy against the reference if there is one, and from it all how far the run can be believed;
@@ -172,7 +253,8 @@ void evaluate_run(const dataset::Source& source, const Estimator& estimator, Run
     record.north_map = evaluation.comparison->alignment.T_reference_estimate.rotation.transpose() *
                        *source.reference()->north_map;
   }
-  record.health = assess_run(source, estimator, results, readings, evaluation);
+  record.health =
+      assess_run(source, estimator, results, readings, evaluation, record.contradictions);
   const bool is_believable = record.health->verdict != Health::kLost;
   if (is_believable) evaluation.consistency = results.consistency();
   write_evaluation(folder.evaluation(), evaluation);
@@ -285,8 +367,22 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
   std::optional<RunResults> results;
   ReadingCount readings;
   estimator.spill_to(folder.path);
-  attempt([&] { results.emplace(estimator, source.info(), options, folder); });
-  if (results) estimate_all(source, estimator, options, observer, *results, readings, attempt);
+  attempt([&] { record.contradictions = survey_beginning(source, estimator); });
+  if (const std::string why = why_refused(record.contradictions, source.info().path);
+      !why.empty()) {
+    attempt.note(why);
+  } else {
+    attempt([&] { results.emplace(estimator, source.info(), options, folder); });
+  }
+  if (results) {
+    plausibility::StreamChecks checks(source.info());
+    estimate_all(source, estimator, options, observer, checks, *results, readings, attempt);
+    attempt([&] {
+      for (auto& finding : weighed(checks.findings(), source.info(), estimator)) {
+        add_if_new(std::move(finding), record.contradictions);
+      }
+    });
+  }
   bool stopped = is_stopped(observer);
   attempt([&] {
     record.decisions = estimator.decisions();  // some are made on the way
@@ -301,6 +397,7 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
     // Without the poses of odometry beside them there was no way to learn from loops.
     if (results->odometry()) attempt([&] { write_slam(estimator, folder); });
     observer.stage("evaluation");
+    attempt([&] { check_reference(source, results->trajectory(), record); });
     attempt([&] { evaluate_run(source, estimator, *results, readings, folder, record); });
     attempt([&] { check_jacobians(estimator, folder); });
     attempt([&] { add_digests(folder, record.files); });

@@ -215,10 +215,11 @@ void judge_registration(const RunHealth& health, const FrameEvidence& frames, Re
                       longest.first_frame, counted(longest.frames, "frame"),
                       seconds_text(longest.seconds), else_is));
     } else if (is_long || !frames.is_navigation) {
-      reasons.add(Health::kDegraded, "not_registered",
-                  fmt::format("{} of {} {} ({}); the longest spell without is {} from frame {} on.",
-                              health.registered, counted(health.registrable, "frame"), held,
-                              percent(*share), seconds_text(longest.seconds), longest.first_frame));
+      reasons.add(
+          Health::kDegraded, "not_registered",
+          fmt::format("{} of {} {} ({}); the longest stretch without is {} from frame {} on.",
+                      health.registered, counted(health.registrable, "frame"), held,
+                      percent(*share), seconds_text(longest.seconds), longest.first_frame));
     }
   }
   if (const auto located = health.located_share(); located && *located < 1) {

@@ -102,6 +102,20 @@ Json to_json(const std::vector<FileDigest>& files) {
   return by_name;
 }
 
+Json to_json(const std::vector<plausibility::Finding>& findings) {
+  Json list = Json::array();
+  for (const plausibility::Finding& finding : findings) {
+    list.push_back({{"code", finding.code},
+                    {"severity", plausibility::name_of(finding.severity)},
+                    {"accepted", finding.is_accepted},
+                    {"sensor", finding.sensor},
+                    {"figure", finding.figure},
+                    {"consequence", finding.consequence},
+                    {"statement", finding.statement}});
+  }
+  return list;
+}
+
 Json timing(const RunRecord& record) {
   Json stages = Json::array();
   for (const StageTiming& stage : record.stages) {
@@ -171,6 +185,7 @@ std::string to_json(const RunRecord& record, const BuildInfo& build, const HostI
   Json& skipped = json["frames"]["skipped"] = Json::object();
   for (const auto& [reason, count] : record.skipped.by_reason()) skipped[reason] = count.count;
 
+  json["contradictions"] = to_json(record.contradictions);
   Json decisions = Json::array();
   for (const Decision& decision : record.decisions) {
     decisions.push_back({{"name", decision.name}, {"value", decision.value}});

@@ -60,7 +60,10 @@ std::unique_ptr<Source> open_kitti_odometry(const fs::path& folder, const OpenOp
   set_camera(info, statements, folder / "calib.txt");
   recording.reference = choose_reference(info, statements, find_poses(folder), pose_stamps);
   note_unused_files(info, options, recording.reference, pose_stamps.size());
-  recording.read = [](const ScanFile& scan) { return read_kitti_bin(scan.file); };
+  recording.read = [layout = statements->bin,
+                    unit_m = statements->point_unit_m](const ScanFile& scan) {
+    return in_metres(read_kitti_bin(scan.file, layout), unit_m);
+  };
   return make_folder_source(std::move(recording));
 }
 

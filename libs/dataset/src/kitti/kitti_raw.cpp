@@ -166,7 +166,10 @@ std::unique_ptr<Source> open_kitti_raw(const fs::path& folder, const OpenOptions
   }
   note_unused_files(info, options, recording.reference, info.expected_scans);
   recording.others = std::move(oxts.records);
-  recording.read = [](const ScanFile& scan) { return read_kitti_bin(scan.file); };
+  recording.read = [layout = statements->bin,
+                    unit_m = statements->point_unit_m](const ScanFile& scan) {
+    return in_metres(read_kitti_bin(scan.file, layout), unit_m);
+  };
   return make_folder_source(std::move(recording));
 }
 

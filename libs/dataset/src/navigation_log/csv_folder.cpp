@@ -54,7 +54,7 @@ bool is_empty(const CsvStatements& csv) {
 class CsvRecording {
  public:
   CsvRecording(const fs::path& folder, const Statements& statements)
-      : statements_(statements), csv_(statements->csv) {
+      : statements_(statements), csv_(statements->csv), stated_(statements->imu, statements->gnss) {
     if (is_empty(csv_)) {
       if (const auto found = found_statements(folder)) {
         csv_.gyro = found->gyro;
@@ -87,8 +87,12 @@ class CsvRecording {
         records.skip("gyro without accelerometer within 50 ms", gyro_->place(i));
         continue;
       }
-      records.add(sensors::ImuSample{stamp, kImuTable, unit * gyro_->vector(i), *force},
-                  gyro_->line(i));
+      sensors::ImuSample sample{stamp, kImuTable, unit * gyro_->vector(i), *force};
+      if (stated_.apply(sample)) {
+        records.add(sample, gyro_->line(i));
+      } else {
+        records.skip("IMU reading of increments with none before it", gyro_->line(i));
+      }
     }
   }
 
@@ -97,10 +101,6 @@ class CsvRecording {
     const CsvRows& fixes = *gnss_;
     for (std::size_t i = 0; i < fixes.size(); ++i) {
       const auto values = fixes.values(i);
-      if (std::abs(values[0]) > 90 || std::abs(values[1]) > 360) {
-        records.skip("GNSS line with no such place", fixes.place(i));
-        continue;
-      }
       sensors::GnssFix fix;
       fix.stamp = fixes.stamp(i);
       fix.sensor = kFixTable;
@@ -108,7 +108,14 @@ class CsvRecording {
       fix.longitude_deg = values[1];
       fix.altitude_m = values[2];
       if (values.size() > 3) fix.heading_deg = values[3];
-      records.add(fix, fixes.line(i));
+      stated_.apply(fix);
+      if (std::abs(fix.latitude_deg) > 90 || std::abs(fix.longitude_deg) > 360) {
+        records.skip("GNSS line with no such place", fixes.line(i));
+      } else if (is_nowhere(fix)) {
+        records.skip(kNoFixYet, fixes.line(i));
+      } else {
+        records.add(fix, fixes.line(i));
+      }
     }
   }
 
@@ -258,6 +265,7 @@ class CsvRecording {
 
   const Statements& statements_;
   CsvStatements csv_;
+  StatedMeasurements stated_;
   std::string reason_unstated_ = "default";
   std::optional<CsvRows> gyro_;
   std::optional<CsvRows> accelerometer_;

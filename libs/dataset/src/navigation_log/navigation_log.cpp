@@ -59,7 +59,8 @@ class NoSuchTime : public BadLine {
 
 class LineParser {
  public:
-  explicit LineParser(const LogStatements& log) : log_(log) {}
+  LineParser(const LogStatements& log, const ImuStatements& imu, const GnssStatements& gnss)
+      : log_(log), stated_(imu, gnss) {}
 
   sensors::Measurement parse(std::string_view line) {
     const std::vector<std::string_view> words = files::split_words(line, kMostWords);
@@ -96,10 +97,12 @@ class LineParser {
     return geometry::Stamp::from_seconds(seconds);
   }
 
-  ImuSample imu(const std::vector<double>& v) const {
+  ImuSample imu(const std::vector<double>& v) {
     const double unit = log_.angular_rate == AngularUnit::kDegrees ? std::numbers::pi / 180 : 1;
-    return {stamp(v[0], kImuLine), kImuLine, unit * Eigen::Vector3d(v[1], v[2], v[3]),
-            Eigen::Vector3d(v[4], v[5], v[6])};
+    ImuSample sample{stamp(v[0], kImuLine), kImuLine, unit * Eigen::Vector3d(v[1], v[2], v[3]),
+                     Eigen::Vector3d(v[4], v[5], v[6])};
+    if (!stated_.apply(sample)) throw BadLine("IMU line of increments with no line before it");
+    return sample;
   }
 
   WheelOdometry wheels(const std::vector<double>& v) {
@@ -123,7 +126,6 @@ class LineParser {
   }
 
   GnssFix gnss(const std::vector<double>& v) const {
-    if (std::abs(v[1]) > 90 || std::abs(v[2]) > 360) throw BadLine("GNSS line with no such place");
     if (v[5] != 0 && v[5] != 1) throw BadLine("GNSS line whose heading_valid is not 0 or 1");
     GnssFix fix;
     fix.stamp = stamp(v[0], kGnssLine);
@@ -132,11 +134,17 @@ class LineParser {
     fix.longitude_deg = v[2];
     fix.altitude_m = v[3];
     if (v[5] == 1) fix.heading_deg = v[4];
+    stated_.apply(fix);
+    if (std::abs(fix.latitude_deg) > 90 || std::abs(fix.longitude_deg) > 360) {
+      throw BadLine("GNSS line with no such place");
+    }
+    if (is_nowhere(fix)) throw BadLine(kNoFixYet);
     return fix;
   }
 
   LogStatements log_;
   std::string_view time_;  ///< of the line that is being read
+  StatedMeasurements stated_;
   WheelOdometry::Ticks ticks_;
 };
 
@@ -184,7 +192,7 @@ std::unique_ptr<Source> open_navigation_log(const fs::path& file, const OpenOpti
   info.facts.push_back({"pulses", pulses, statements.reason("log.pulses", "default, not stated")});
 
   ListedRecords records;
-  LineParser parser(statements->log);
+  LineParser parser(statements->log, statements->imu, statements->gnss);
   files::LineReader reader(file);
   std::size_t used = 0;
   std::size_t out_of_range = 0;

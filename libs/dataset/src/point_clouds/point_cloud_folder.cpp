@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -7,6 +9,7 @@
 
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/numbers.hpp"
+#include "traverse/statistics/quantile.hpp"
 
 #include "point_clouds/cloud_scan.hpp"
 #include "point_clouds/field_values.hpp"
@@ -95,18 +98,27 @@ struct Example {
 };
 
 Example find_example(const fs::path& folder, const std::vector<ScanFile>& scans) {
+  constexpr std::size_t kMaxWithOneTime = 5;  // then the field tells no times
   std::string fault = "none";
+  std::optional<Example> with_one_time;
+  std::size_t count_with_one_time = 0;
   for (auto scan = scans.rbegin(); scan != scans.rend(); ++scan) {
     if (!scan->stamp) continue;
     try {
       Example example{read_point_cloud(scan->file), {}};
       example.scan = scan_from_cloud(example.cloud, *scan->stamp, std::nullopt, scan->file);
-      if (!example.scan.empty()) return example;
-      fault = "clouds without points";
+      if (!example.scan.empty() && !has_one_time(example.cloud)) return example;
+      if (example.scan.empty()) {
+        fault = "clouds without points";
+        continue;
+      }
+      if (!with_one_time) with_one_time = std::move(example);
+      if (++count_with_one_time == kMaxWithOneTime) break;
     } catch (const InputError& error) {
       fault = error.what();
     }
   }
+  if (with_one_time) return std::move(*with_one_time);
   throw InputError(folder, files::Place::whole_file(),
                    "a point cloud with a stamp that can be read", fault);
 }
@@ -122,6 +134,32 @@ double intensity_full_scale(const FieldValues& field) {
       return *std::max_element(values.begin(), values.end()) <= 1 ? 1 : 255;
     }
   }
+}
+
+/// From one scan to the next, in the median.
+double interval_of(const std::vector<ScanFile>& scans, double otherwise) {
+  std::vector<double> intervals;
+  std::optional<Stamp> last;
+  for (const ScanFile& scan : scans) {
+    if (scan.stamp && last) intervals.push_back(geometry::seconds_between(*last, *scan.stamp));
+    if (scan.stamp) last = scan.stamp;
+  }
+  if (intervals.empty()) return otherwise;
+  const double median = statistics::median(intervals);
+  return median > 0 ? median : otherwise;
+}
+
+/// A scan all of whose points have one time, among others, would be deskewed as if it had been
+/// measured at once.
+sensors::LidarScan with_times(sensors::LidarScan scan, const fs::path& file) {
+  const bool is_one = std::adjacent_find(scan.time.begin(), scan.time.end(),
+                                         std::not_equal_to<>()) == scan.time.end();
+  if (scan.time.size() > 1 && is_one) {
+    throw InputError(file, files::Place::whole_file(),
+                     "points measured one after the other, as in the other scans",
+                     "one time for all of them");
+  }
+  return scan;
 }
 
 /// What the files themselves tell about the lidar.
@@ -155,7 +193,13 @@ std::unique_ptr<Source> open_point_cloud_folder(const fs::path& folder, const Op
   recording.scans = stamp_scans(folder, files, statements, info.facts);
   info.expected_scans = recording.scans.size();
   const Example example = find_example(folder, recording.scans);
-  const auto time = find_point_time(example.cloud, example.scan.stamp, info.facts);
+  PointTimeHints hints;
+  hints.scan_interval_s = interval_of(recording.scans, statements->period_s);
+  if (const auto origin = statements.origin("point_time_unit_s")) {
+    hints.stated_unit_s = statements->point_time_unit_s;
+    hints.stated_in = *origin;
+  }
+  const auto time = find_point_time(example.cloud, example.scan.stamp, hints, info.facts);
   mount_lidar(
       info, kLidar,
       choose_profile(statements, options.share_folder, profile_from(example, time.has_value())),
@@ -166,8 +210,11 @@ std::unique_ptr<Source> open_point_cloud_folder(const fs::path& folder, const Op
   recording.reference =
       choose_reference(info, statements, std::nullopt, stamps_of(recording.scans));
   note_unused_files(info, options, recording.reference, info.expected_scans);
-  recording.read = [time](const ScanFile& scan) {
-    return scan_from_cloud(read_point_cloud(scan.file), *scan.stamp, time, scan.file);
+  recording.read = [time, unit_m = statements->point_unit_m](const ScanFile& scan) {
+    return with_times(
+        in_metres(scan_from_cloud(read_point_cloud(scan.file), *scan.stamp, time, scan.file),
+                  unit_m),
+        scan.file);
   };
   return make_folder_source(std::move(recording));
 }

@@ -20,11 +20,10 @@ namespace {
 constexpr double kLongestSweep = 2;         // seconds
 constexpr double kLargestClockOffset = 10;  // seconds between a scan's stamp and its points
 constexpr double kCoarsestStep = 1e-3;      // of a scan's span; floats of today's seconds fail
-constexpr std::array<const char*, 4> kFields{"time", "t", "timestamp", "scalar_time"};
-
-bool is_integer(ScalarType type) {
-  return type != ScalarType::kFloat && type != ScalarType::kDouble;
-}
+// Of PCL and Velodyne, Ouster, Hesai, Livox; CloudCompare puts "scalar_" before names.
+constexpr std::array<const char*, 8> kFields{
+    "time",        "t",        "timestamp",        "offset_time",
+    "scalar_time", "scalar_t", "scalar_timestamp", "scalar_offset_time"};
 
 struct Span {
   double least = std::numeric_limits<double>::infinity();
@@ -42,29 +41,50 @@ Span span_of(const FieldValues& field) {
   return span;
 }
 
-std::optional<double> unit_of(const FieldValues& field, const Span& span) {
-  if (is_integer(type_of(field))) return 1e-9;
-  for (const double unit : {1.0, 1e-6, 1e-9}) {
-    if (span.length() * unit <= kLongestSweep) return unit;
+/// Units are a thousand apart, so that half as long again (stamps jitter) decides nothing else.
+std::optional<double> unit_of(const Span& span, const PointTimeHints& hints) {
+  if (hints.stated_unit_s) return hints.stated_unit_s;
+  const double longest = 1.5 * std::min(hints.scan_interval_s, kLongestSweep);
+  for (const double unit : {1.0, 1e-3, 1e-6, 1e-9}) {
+    if (span.length() * unit <= longest) return unit;
   }
   return std::nullopt;
 }
 
-const char* name_of_unit(double unit_s) {
-  return unit_s == 1.0 ? "seconds" : unit_s == 1e-6 ? "microseconds" : "nanoseconds";
+std::string name_of_unit(double unit_s) {
+  if (unit_s == 1.0) return "seconds";
+  if (unit_s == 1e-3) return "milliseconds";
+  if (unit_s == 1e-6) return "microseconds";
+  if (unit_s == 1e-9) return "nanoseconds";
+  return fmt::format("units of {:g} s", unit_s);
 }
 
-/// Whole numbers are nanoseconds and stay exact. Nothing for what no stamp can hold.
+bool looks_like_time(std::string_view name) {
+  for (const char* part : {"time", "Time", "TIME", "stamp", "sec"}) {
+    if (name.find(part) != std::string_view::npos) return true;
+  }
+  return false;
+}
+
+const FieldValues* time_field(const PointCloud& cloud, const char*& name) {
+  for (const char* candidate : kFields) {
+    name = candidate;
+    if (const FieldValues* field = cloud.find(candidate)) return field;
+  }
+  return nullptr;
+}
+
+/// Whole numbers of whole nanoseconds stay exact. Nothing for what no stamp can hold.
 template <typename Number>
 std::optional<Stamp> absolute_stamp(Number value, double unit_s) {
-  if constexpr (std::is_integral_v<Number>) {
-    return Stamp{static_cast<std::int64_t>(value)};
-  } else {
-    constexpr double kLargestSeconds = 9e9;
-    const double seconds = static_cast<double>(value) * unit_s;
-    if (!(std::abs(seconds) < kLargestSeconds)) return std::nullopt;
-    return Stamp::from_seconds(seconds);
+  constexpr double kLargestSeconds = 9e9;
+  const double seconds = static_cast<double>(value) * unit_s;
+  if (!(std::abs(seconds) < kLargestSeconds)) return std::nullopt;
+  const double nanoseconds = std::round(unit_s * 1e9);
+  if (std::is_integral_v<Number> && nanoseconds >= 1 && unit_s == nanoseconds * 1e-9) {
+    return Stamp{static_cast<std::int64_t>(value) * static_cast<std::int64_t>(nanoseconds)};
   }
+  return Stamp::from_seconds(seconds);
 }
 
 std::optional<Stamp> earliest(const std::vector<std::optional<Stamp>>& stamps) {
@@ -91,38 +111,56 @@ std::string describe(const PointTimeConvention& convention) {
 
 }  // namespace
 
+bool has_one_time(const PointCloud& cloud) {
+  const char* name = nullptr;
+  const FieldValues* field = time_field(cloud, name);
+  return field != nullptr && cloud.size() > 1 && !(span_of(*field).length() > 0);
+}
+
 std::optional<PointTimeConvention> find_point_time(const PointCloud& cloud, Stamp stamp,
+                                                   const PointTimeHints& hints,
                                                    std::vector<Fact>& facts) {
   const auto unusable = [&](const std::string& why) {
     facts.push_back({"time field", "not used", why});
     return std::nullopt;
   };
-  const auto name = std::find_if(kFields.begin(), kFields.end(), [&](const char* candidate) {
-    return cloud.find(candidate) != nullptr;
-  });
-  if (name == kFields.end()) return std::nullopt;
-  const FieldValues& field = *cloud.find(*name);
+  const char* name = nullptr;
+  const FieldValues* found = time_field(cloud, name);
+  if (found == nullptr) {
+    for (const PointCloud::Field& other : cloud.fields()) {
+      if (!looks_like_time(other.name)) continue;
+      facts.push_back({"time field", "none",
+                       fmt::format("'{}' looks like one, but is not known: rename it to 'time' "
+                                   "(seconds, milliseconds ... after the scan's stamp)",
+                                   other.name)});
+      break;
+    }
+    return std::nullopt;
+  }
+  const FieldValues& field = *found;
   const Span span = span_of(field);
-  if (!(span.length() > 0)) return unusable(fmt::format("'{}' is the same for all points", *name));
+  if (!(span.length() > 0)) return unusable(fmt::format("'{}' is the same for all points", name));
   const double largest = std::max(std::abs(span.least), std::abs(span.most));
   const bool single = type_of(field) == ScalarType::kFloat;
   const double step = single ? largest * std::numeric_limits<float>::epsilon() : 0;
   if (step > kCoarsestStep * span.length()) {
     return unusable(
-        fmt::format("'{}' has steps of {:.2g} in a span of {:.2g}", *name, step, span.length()));
+        fmt::format("'{}' has steps of {:.2g} in a span of {:.2g}", name, step, span.length()));
   }
-  const auto unit = unit_of(field, span);
-  if (!unit) return unusable(fmt::format("'{}' spans {} in one scan", *name, span.length()));
+  const auto unit = unit_of(span, hints);
+  if (!unit) return unusable(fmt::format("'{}' spans {} in one scan", name, span.length()));
 
-  PointTimeConvention convention{*name, *unit, TimeZero::kScanStamp};
+  PointTimeConvention convention{name, *unit, TimeZero::kScanStamp};
   if (largest * *unit > kLongestSweep) {
     const double offset = span.least * *unit - stamp.seconds();
     convention.zero =
         std::abs(offset) < kLargestClockOffset ? TimeZero::kEpoch : TimeZero::kFirstPoint;
   }
-  facts.push_back(
-      {"time field", describe(convention),
-       fmt::format("magnitudes in the last scan: {:.9g} to {:.9g}", span.least, span.most)});
+  facts.push_back({"time field", describe(convention),
+                   hints.stated_unit_s
+                       ? "unit: " + hints.stated_in
+                       : fmt::format("{:.9g} to {:.9g} in a scan, and scans are {:.4g} s apart",
+                                     span.least, span.most, hints.scan_interval_s)});
   return convention;
 }
 

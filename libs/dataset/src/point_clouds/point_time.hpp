@@ -24,13 +24,24 @@ struct PointTimeConvention {
   TimeZero zero = TimeZero::kScanStamp;
 };
 
+/// What is known of the times of points before they are looked at.
+struct PointTimeHints {
+  double scan_interval_s = 0.1;         ///< from one scan to the next, in the median
+  std::optional<double> stated_unit_s;  ///< that the user states
+  std::string stated_in;                ///< where
+};
+
 /// Decides from the magnitude of the values in one scan, best the last: there absolute times are
-/// largest. Whole numbers are nanoseconds. Other numbers are seconds unless the scan would then
-/// last more than 2 s; then micro- or nanoseconds. Values within 2 s of zero are relative, larger
-/// ones absolute. Nothing if there is no time field or it cannot be understood; says in `facts`
-/// what was decided.
+/// largest. A sweep lasts no longer than half as long again as there is to the next scan, and no
+/// longer than 2 s: the unit is the largest of seconds, milli-, micro- and nanoseconds of which
+/// that holds. Values within 2 s of zero are relative, larger ones absolute. Nothing if there is no
+/// time field or it cannot be understood; says in `facts` what was decided.
 std::optional<PointTimeConvention> find_point_time(const PointCloud& cloud, geometry::Stamp stamp,
+                                                   const PointTimeHints& hints,
                                                    std::vector<Fact>& facts);
+
+/// Whether the cloud has a time field and it is the same for all points.
+bool has_one_time(const PointCloud& cloud);
 
 /// Seconds after `stamp` of each point. \throws files::InputError if the field is missing.
 std::vector<float> point_times(const PointCloud& cloud, const PointTimeConvention& convention,

@@ -133,7 +133,14 @@ WheelOdometry wheel_odometry(const mrpt::obs::CObservationOdometry& observation)
 }  // namespace
 
 RawlogConverter::RawlogConverter(RawlogSensors& sensors, std::string external_folder)
-    : sensors_(sensors), external_folder_(std::move(external_folder)) {}
+    : sensors_(sensors),
+      external_folder_(std::move(external_folder)),
+      stated_(sensors.statements()->imu, sensors.statements()->gnss) {
+  if (stated_.has_increments()) {
+    throw sensors.statements().error("imu.unit", "rates and forces: a rawlog holds no increments",
+                                     "increment");
+  }
+}
 
 ConvertedRecord RawlogConverter::convert(const mrpt_io::RawlogRecord& record) {
   ConvertedRecord result;
@@ -206,12 +213,15 @@ Measurement RawlogConverter::measurement_from(mrpt::obs::CObservation& observati
     ImuSample sample = imu_sample(*imu);
     sample.stamp = stamp;
     sample.sensor = sensors_.label_of(SensorKind::kImu, name, T_body_sensor);
+    stated_.apply(sample);
     return sample;
   }
   if (const auto* gnss = dynamic_cast<mrpt::obs::CObservationGPS*>(&observation)) {
     GnssFix fix = gnss_fix(*gnss);
     fix.stamp = stamp;
     fix.sensor = sensors_.label_of(SensorKind::kGnss, name, T_body_sensor);
+    stated_.apply(fix);
+    if (is_nowhere(fix)) throw mrpt_io::UnusableObservation(kNoFixYet);
     return fix;
   }
   if (const auto* wheels = dynamic_cast<mrpt::obs::CObservationOdometry*>(&observation)) {

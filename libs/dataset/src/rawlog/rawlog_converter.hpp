@@ -9,6 +9,7 @@
 #include "traverse/sensors/measurement.hpp"
 
 #include "rawlog/rawlog_sensors.hpp"
+#include "recording/measurement_statements.hpp"
 
 namespace mrpt::obs {
 class CActionCollection;
@@ -57,6 +58,7 @@ class RawlogConverter {
 
   RawlogSensors& sensors_;
   std::string external_folder_;
+  StatedMeasurements stated_;
   State state_;
 };
 

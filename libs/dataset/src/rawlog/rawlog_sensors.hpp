@@ -23,6 +23,8 @@ class RawlogSensors {
   std::string label_of(sensors::SensorKind kind, const std::string& name,
                        const geometry::Pose3& T_body_sensor);
 
+  const Statements& statements() const { return statements_; }
+
   /// The same for a lidar; `from_data` is what its first observation tells of it.
   const sensors::MountedSensor& lidar(const std::string& name, const geometry::Pose3& T_body_sensor,
                                       const sensors::LidarProfile& from_data);

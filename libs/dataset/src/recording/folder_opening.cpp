@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "traverse/files/input_error.hpp"
+#include "traverse/files/numbers.hpp"
 
 namespace traverse::dataset {
 
@@ -28,6 +29,10 @@ RecordingInfo begin_info(const fs::path& path, std::string_view format,
   info.rig.body_frame = statements.states("body_frame") ? statements->body_frame : body_frame;
   info.facts.push_back(
       {"body frame", info.rig.body_frame, statements.reason("body_frame", kDefault)});
+  add_measurement_facts(statements, info.facts);
+  for (const std::string_view code : files::split_words(statements->accept)) {
+    info.accepted_contradictions.emplace_back(code);
+  }
   return info;
 }
 
@@ -44,6 +49,14 @@ void set_motion_compensation(RecordingInfo& info, const Statements& statements, 
       statements.states("motion_compensated") ? statements->motion_compensated : otherwise;
   info.facts.push_back({"motion compensated", info.motion_compensated ? "yes" : "no",
                         statements.reason("motion_compensated", why)});
+}
+
+sensors::LidarScan in_metres(sensors::LidarScan scan, double unit_m) {
+  if (unit_m == 1) return scan;
+  for (auto* values : {&scan.x, &scan.y, &scan.z}) {
+    for (float& value : *values) value = static_cast<float>(unit_m * value);
+  }
+  return scan;
 }
 
 void set_camera(RecordingInfo& info, const Statements& statements, const fs::path& otherwise) {

@@ -31,6 +31,9 @@ void mount_lidar(RecordingInfo& info, const std::string& label, const ProfileCho
 void set_motion_compensation(RecordingInfo& info, const Statements& statements, bool otherwise,
                              const std::string& why);
 
+/// The scan with its coordinates in metres, of which they count `unit_m`.
+sensors::LidarScan in_metres(sensors::LidarScan scan, double unit_m);
+
 /// The camera from the calibration file that is stated, or else from `otherwise` if it is there.
 void set_camera(RecordingInfo& info, const Statements& statements,
                 const std::filesystem::path& otherwise);

@@ -64,7 +64,7 @@ void commit_with_sidecar(const Sidecar& sidecar, RecordingFiles& files) {
           std::vector<double> position{p.x(), p.y(), p.z()};
           b.group("vehicle", "", [&](config::Binder& vehicle) {
             vehicle.group("wheels", "", [&](config::Binder& wheels) {
-              const auto positive = config::Range::non_negative();
+              const auto positive = config::Range::any();
               wheels.numbers("position_m", position, "");
               wheels.number("left_m_per_pulse", encoder.left_m_per_pulse, positive, "");
               wheels.number("right_m_per_pulse", encoder.right_m_per_pulse, positive, "");

@@ -50,6 +50,14 @@ void bind(Binder& b, StatedValues& v) {
   b.text("body_frame", v.body_frame, "name of the body frame in reports");
   b.number("period_s", v.period_s, Range::positive(), "between scans without stamps");
   b.text("first_stamp", v.first_stamp, "of the first scan without stamps, seconds");
+  b.text("accept", v.accept, "codes of contradictions to go on with, blanks between");
+  b.number("point_unit_m", v.point_unit_m, Range::positive(),
+           "metres that a 1 in a point's coordinates means");
+  b.number("point_time_unit_s", v.point_time_unit_s, Range::positive(),
+           "seconds that a 1 in a point's time means; else by its size");
+  b.group("bin", "how a .bin file holds points", [&](Binder& bin) { bind(bin, v.bin); });
+  b.group("imu", "what the numbers of an IMU mean", [&](Binder& imu) { bind(imu, v.imu); });
+  b.group("gnss", "what the numbers of a fix mean", [&](Binder& gnss) { bind(gnss, v.gnss); });
   b.group("vehicle", "mounting of the sensors, and wheel odometry",
           [&](Binder& vehicle) { bind(vehicle, v.vehicle); });
   b.group("log", "format of a text log", [&](Binder& log) { bind(log, v.log); });

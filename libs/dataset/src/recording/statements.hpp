@@ -11,7 +11,9 @@
 #include "traverse/files/input_error.hpp"
 #include "traverse/sensors/lidar_profile.hpp"
 
+#include "kitti/kitti_bin.hpp"
 #include "navigation_log/log_statements.hpp"
+#include "recording/measurement_statements.hpp"
 #include "recording/vehicle_statements.hpp"
 
 namespace traverse::dataset {
@@ -34,7 +36,13 @@ struct StatedValues {
   std::string body_frame;
   double period_s = 0.1;
   std::string first_stamp;
+  std::string accept;
+  double point_unit_m = 1;
+  double point_time_unit_s = 1;  ///< holds when it is stated
+  BinLayout bin;
   VehicleStatements vehicle;
+  ImuStatements imu;
+  GnssStatements gnss;
   LogStatements log;
   CsvStatements csv;
 };

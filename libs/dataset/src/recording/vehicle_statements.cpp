@@ -49,9 +49,9 @@ void bind(Binder& b, VehicleStatements& v) {
   });
   b.group("wheels", "of the wheels that have encoders", [&](Binder& wheels) {
     wheels.numbers("position_m", v.wheels_position_m, "middle of their axle in the body, metres");
-    wheels.number("left_m_per_pulse", v.left_m_per_pulse, Range::non_negative(),
+    wheels.number("left_m_per_pulse", v.left_m_per_pulse, Range::between(-100, 100),
                   "distance per pulse");
-    wheels.number("right_m_per_pulse", v.right_m_per_pulse, Range::non_negative(),
+    wheels.number("right_m_per_pulse", v.right_m_per_pulse, Range::between(-100, 100),
                   "distance per pulse");
   });
 }
@@ -109,7 +109,7 @@ void apply_vehicle(const Statements& statements, MountedSensor& sensor) {
   }
   if (sensor.kind == SensorKind::kWheels) {
     place(statements, "vehicle.wheels.position_m", v.wheels_position_m, sensor);
-    if (v.left_m_per_pulse > 0 && v.right_m_per_pulse > 0) {
+    if (v.left_m_per_pulse != 0 && v.right_m_per_pulse != 0) {
       sensor.encoder = {v.left_m_per_pulse, v.right_m_per_pulse};
     }
   }

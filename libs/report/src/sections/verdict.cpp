@@ -131,6 +131,17 @@ void add_recording_notices(const RunData& run, std::vector<Notice>& list) {
   }
 }
 
+/// What in the recording contradicts itself, and the user has accepted.
+void add_accepted(const RunData& run, std::vector<Notice>& list) {
+  for (const Json& found : run.record.value("contradictions", Json::array())) {
+    if (!found.at("accepted").get<bool>()) continue;
+    list.push_back({"warn", "Accepted",
+                    fmt::format("{}: {}. {}.", found.at("code").get<std::string>(),
+                                found.at("figure").get<std::string>(),
+                                found.at("consequence").get<std::string>())});
+  }
+}
+
 /// What is told although the run is no worse for it.
 void add_smaller_notices(const RunData& run, std::vector<Notice>& list) {
   const RunHealth& health = run.health;
@@ -180,6 +191,7 @@ std::vector<Notice> notices(const RunData& run) {
   add_end_notices(run, list);
   add_health_notices(run, list);
   add_recording_notices(run, list);
+  add_accepted(run, list);
   add_smaller_notices(run, list);
   if (list.empty()) {
     list.push_back({"good", "Healthy",

@@ -26,6 +26,17 @@ namespace traverse::dataset {
 ///       format: kitti               auto | tum | kitti | euroc
 ///       frame: lidar                body | lidar | camera
 ///       north_deg: 90               true north in the file's map, from x towards y; if known
+///     accept: gnss_late             contradictions (docs/contradictions.md) to go on with
+///     point_unit_m: 0.001           metres that a 1 in a point's coordinates means
+///     point_time_unit_s: 1e-6       seconds that a 1 in a point's time means; else by its size
+///     bin: {columns: 5, type: float64}   of .bin files; else x y z intensity as float32
+///     imu: {unit: g, angular_rate: deg}  m_s2 | g | mg | increment; rad | deg | increment
+///     gnss:                         what the numbers of a fix mean
+///       order: longitude_latitude   latitude_longitude | longitude_latitude
+///       unit: ddmm                  deg | rad | ddmm
+///       heading: from_east          from_north | from_east | counterclockwise
+///       heading_unit: deg           deg | rad
+///       delay_s: 0.2                a fix is of so long before its stamp
 ///     calibration: calib.txt        in KITTI's form: Tr, or Tr_velo_to_cam with R0_rect
 ///     body_frame: lidar             what reports call the body
 ///     period_s: 0.1                 for folders without stamps

@@ -66,6 +66,8 @@ struct RecordingInfo {
   /// Why a reference that stands where the format has it is not used: a file, what was expected in
   /// it and what was found. Empty: there is none, or it is used.
   std::string reference_refused = {};
+  /// Codes of contradictions that the user knows of and goes on with (statement `accept`).
+  std::vector<std::string> accepted_contradictions = {};
 };
 
 /// The reference trajectory that belongs to a recording.

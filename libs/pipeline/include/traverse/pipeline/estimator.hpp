@@ -16,6 +16,7 @@
 #include "traverse/pipeline/sensor_use.hpp"
 #include "traverse/pipeline/slam_map.hpp"
 #include "traverse/sensors/measurement.hpp"
+#include "traverse/sensors/rig.hpp"
 
 namespace traverse::pipeline {
 
@@ -62,6 +63,11 @@ class Estimator {
 
   /// Where it may put what does not fit into memory; else the system's folder for temporary files.
   virtual void spill_to(const std::filesystem::path& /*folder*/) {}
+
+  /// Whether its result is worth nothing without right readings of such a sensor.
+  virtual bool depends_on(sensors::SensorKind kind) const {
+    return kind == sensors::SensorKind::kLidar;
+  }
 
   /// Takes the next measurement. \returns the frames that are now known, in order of time: often
   /// one, none for a measurement that completes no frame, several after a held-back start.

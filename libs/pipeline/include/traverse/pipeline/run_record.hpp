@@ -13,6 +13,7 @@
 #include "traverse/pipeline/registry.hpp"
 #include "traverse/pipeline/run_digests.hpp"
 #include "traverse/pipeline/run_health.hpp"
+#include "traverse/plausibility/finding.hpp"
 
 namespace traverse::pipeline {
 
@@ -63,6 +64,8 @@ struct RunRecord {
   std::size_t first_frame = 0;
   std::size_t sample_frame = 0;  ///< the frame of scan.ply, counted like first_frame
   dataset::SkippedRecords skipped;
+  /// What contradicts what; of severity kRefuse only where the estimator depends on the sensor.
+  std::vector<plausibility::Finding> contradictions;
 
   double frame_median_ms = 0;
   double frame_p95_ms = 0;
