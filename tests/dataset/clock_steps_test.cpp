@@ -299,6 +299,23 @@ TEST(ClockSteps, AfterAnOutageASlowSensorGoesOnAtOnce) {
   }));
 }
 
+// Two sensors of one clock that pause now and then: the first to go on does not make the other late.
+TEST(ClockSteps, AfterAPauseOfAllSensorsNothingIsLost) {
+  const TemporaryFolder folder;
+  {
+    RawlogMaker maker(folder / "a.rawlog");
+    double t = 0;
+    for (int i = 0; i < 200; ++i) {
+      t += i % 17 == 16 ? 3.5 : 0.1;
+      maker.add(made_imu(t));
+      maker.add(made_imu(t, "second"));
+    }
+  }
+  const auto source = open(folder / "a.rawlog");
+  EXPECT_THAT(read_all(*source), SizeIs(400));
+  EXPECT_THAT(skipped_in(*source), IsEmpty());
+}
+
 TEST(ClockSteps, ABookmarkAmongRecordsThatWaitGivesTheSame) {
   const TemporaryFolder folder;
   {

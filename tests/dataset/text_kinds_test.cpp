@@ -273,7 +273,7 @@ TEST(TextKinds, PosesWithFrameNumbersGoWithTheScansOfTheirNumbers) {
   ASSERT_EQ(T_map_body.size(), 3U);
   EXPECT_EQ(T_map_body.stamp(1).nanoseconds, 200'000'000);
   EXPECT_EQ(T_map_body.pose(1).translation.x(), 2);
-  EXPECT_EQ(fact_reason(*source, "reference read as"), "12 columns after a frame number");
+  EXPECT_EQ(fact_reason(*source, "reference read as"), "as asked for, with frame numbers");
   files::write_text(folder / "poses.txt", "4 1 0 0 0 0 1 0 0 0 0 1 0\n");
   EXPECT_THAT(fact_reason(*open(folder.path()), "reference"), HasSubstr("frame numbers below 4"));
 }

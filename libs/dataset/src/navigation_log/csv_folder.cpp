@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -179,9 +180,15 @@ class CsvRecording {
     std::vector<Fact> told;
     rows = read_csv_rows(statements_.find_file(key + ".file", stated.file), stated, time_unit_s,
                          records, told);
+    add_new(std::move(told));
+  }
+
+  /// Facts that another stream of the same file has not told already.
+  void add_new(std::vector<Fact> told) {
     for (Fact& fact : told) {
-      const bool is_new = std::none_of(facts.begin(), facts.end(),
-                                       [&](const Fact& known) { return known.name == fact.name; });
+      const bool is_new = std::none_of(facts.begin(), facts.end(), [&](const Fact& known) {
+        return known.name == fact.name && known.value == fact.value;
+      });
       if (is_new) facts.push_back(std::move(fact));
     }
   }
@@ -207,12 +214,18 @@ class CsvRecording {
     for (const Stream& stream : streams) {
       const std::vector<std::optional<Stamp>> stamps(stream.rows->stamps().begin(),
                                                      stream.rows->stamps().end());
-      sensors.push_back({stream.key, StampSequence::of(stamps),
+      sensors.push_back({stream.stated.file, StampSequence::of(stamps),
                          [rows = stream.rows](std::size_t row) { return rows->place(row); }});
     }
-    settle_steps(sensors, facts);
+    std::vector<Fact> steps;
+    settle_steps(sensors, steps);
+    add_new(std::move(steps));
+    std::set<std::string> told;  // one file may hold several streams
     for (std::size_t i = 0; i < streams.size(); ++i) {
-      streams[i].rows->take_stamps(sensors[i].sequence.records, records);
+      streams[i].rows->take_stamps(sensors[i].sequence.records,
+                                   [&](const char* fault, const std::string& place) {
+                                     if (told.insert(place).second) records.skip(fault, place);
+                                   });
       const double period_s = streams[i].stated.period_s;
       if (period_s > 0) regularise(streams[i].key, period_s, *streams[i].rows);
     }

@@ -113,12 +113,14 @@ void CsvRows::add(Stamp stamp, std::span<const double> values, std::size_t line)
   lines_.push_back(line);
 }
 
-void CsvRows::take_stamps(std::span<const RecordStamp> records, ListedRecords& skipped) {
+void CsvRows::take_stamps(
+    std::span<const RecordStamp> records,
+    const std::function<void(const char* fault, const std::string& place)>& skip) {
   const std::size_t width = columns_.size();
   std::size_t end = 0;
   for (std::size_t i = 0; i < records.size(); ++i) {
     if (!records[i].stamp) {
-      skipped.skip(records[i].fault, place(i));
+      skip(records[i].fault, place(i));
       continue;
     }
     stamps_[end] = *records[i].stamp;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -35,8 +36,10 @@ class CsvRows {
       : file_(std::move(file)), columns_(std::move(columns)) {}
 
   void add(geometry::Stamp stamp, std::span<const double> values, std::size_t line);
-  /// Takes the stamps of `records`, one a row, and leaves out the rows that have none.
-  void take_stamps(std::span<const RecordStamp> records, ListedRecords& skipped);
+  /// Takes the stamps of `records`, one a row, and leaves out the rows that have none. `skip` is
+  /// told of each what is wrong with it and where it stands.
+  void take_stamps(std::span<const RecordStamp> records,
+                   const std::function<void(const char* fault, const std::string& place)>& skip);
 
   /// As stated, in their order.
   const std::vector<CsvColumn>& columns() const { return columns_; }

@@ -117,6 +117,20 @@ void ArrivalWatch::accept(Track& track, Entry entry, double moved_s) {
   accepted_.push_back(std::move(entry));
 }
 
+/// What waited because it came after a pause is in order if it is before one that fits.
+void ArrivalWatch::accept_before(Track& track, Stamp stamp, double moved_s) {
+  std::vector<Entry> others;
+  for (Entry& entry : std::exchange(track.waiting, {})) {
+    const Stamp moved = geometry::shifted(stamp_in(entry), moved_s);
+    if (*track.last < moved && moved < stamp) {
+      accept(track, std::move(entry), moved_s);
+    } else {
+      others.push_back(std::move(entry));
+    }
+  }
+  track.waiting = std::move(others);
+}
+
 void ArrivalWatch::reject_waiting(Track& track) {
   for (Entry& entry : track.waiting) {
     const bool is_ahead = track.last && stamp_in(entry) > track.last_recorded;
@@ -203,6 +217,7 @@ void ArrivalWatch::push(Entry entry) {
     return;
   }
   if (const auto moved_s = fitting_move(track, recorded)) {
+    accept_before(track, geometry::shifted(recorded, *moved_s), *moved_s);
     reject_waiting(track);
     accept(track, std::move(entry), *moved_s);
     return;

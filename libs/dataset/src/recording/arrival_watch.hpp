@@ -61,6 +61,7 @@ class ArrivalWatch {
   /// Whether one of the steps known makes `recorded` go on where its sensor was.
   std::optional<double> fitting_move(const Track& track, geometry::Stamp recorded) const;
   void accept(Track& track, Entry entry, double moved_s);
+  void accept_before(Track& track, geometry::Stamp stamp, double moved_s);
   void reject_waiting(Track& track);
   bool is_near_clock(const Track& track) const;
   void begin(Track& track, geometry::Stamp stamp, double near_s, double moved_s);

@@ -319,6 +319,9 @@ TrajectoryReading read_poses(const std::filesystem::path& file, TrajectoryFormat
     take(stamp, pose);
   };
   read_as(file, take_any, reading);
+  if (format == TrajectoryFormat::kKitti && !reading.frame_numbers.empty()) {
+    reading.reason += ", with frame numbers";
+  }
   if (any) return reading;
   throw files::InputError(file, files::Place::whole_file(), "at least one pose", "none");
 }
