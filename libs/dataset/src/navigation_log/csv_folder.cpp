@@ -92,7 +92,7 @@ class CsvRecording {
       if (stated_.apply(sample)) {
         records.add(sample, gyro_->line(i));
       } else {
-        records.skip("IMU reading of increments with none before it", gyro_->line(i));
+        records.skip("IMU reading of increments with none before it", gyro_->place(i));
       }
     }
   }
@@ -111,9 +111,9 @@ class CsvRecording {
       if (values.size() > 3) fix.heading_deg = values[3];
       stated_.apply(fix);
       if (std::abs(fix.latitude_deg) > 90 || std::abs(fix.longitude_deg) > 360) {
-        records.skip("GNSS line with no such place", fixes.line(i));
+        records.skip("GNSS line with no such place", fixes.place(i));
       } else if (is_nowhere(fix)) {
-        records.skip(kNoFixYet, fixes.line(i));
+        records.skip(kNoFixYet, fixes.place(i));
       } else {
         records.add(fix, fixes.line(i));
       }
