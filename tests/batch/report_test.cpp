@@ -39,7 +39,7 @@ struct Made {
     variants = summarise(results, plan.budgets, plan.metrics.front());
   }
   ReportData data() const {
-    return {plan, results, variants, baseline, tables, {"traverse", "batch"}};
+    return {plan, results, variants, baseline, tables, std::nullopt, {"traverse", "batch"}};
   }
 };
 

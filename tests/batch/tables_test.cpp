@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using testing::TemporaryFolder;
 
-constexpr const char* kApe = "ape_translation_rmse";
+constexpr const char* kRmse = "ape_translation_rmse";
 
 /// Two recordings through two pipelines, the second of which only one recording takes.
 class Tables : public ::testing::Test {
@@ -45,8 +45,8 @@ class Tables : public ::testing::Test {
     Results results({made_job("a", "floam"), made_job("a", "floam", 2), made_job("a", "other"),
                      made_job("b", "floam")});
     const auto& jobs = results.jobs();
-    results.add(made_completion(jobs[0], {{kApe, 0.125}, {"end_error_percent", -0.5}}));
-    results.add(made_completion(jobs[1], {{kApe, 0.375}}));
+    results.add(made_completion(jobs[0], {{kRmse, 0.125}, {"end_error_percent", -0.5}}));
+    results.add(made_completion(jobs[1], {{kRmse, 0.375}}));
     Completion lost = made_completion(jobs[2], {}, Outcome::kFailed);
     lost.reason = "no scan | none";
     results.add(lost);
@@ -76,7 +76,7 @@ TEST_F(Tables, StandRecordingByRecordingWithTheirTexts) {
 
 TEST_F(Tables, OfRecordingsAndOfMeans) {
   Results all = results();
-  all.add(made_completion(all.jobs()[3], {{kApe, 0.75}}));
+  all.add(made_completion(all.jobs()[3], {{kRmse, 0.75}}));
   const Plan planned = plan(
       "  - {title: Drives, rows: recordings, head: drive}\n"
       "  - {title: Means, rows: means, pipelines: [floam]}\n");
