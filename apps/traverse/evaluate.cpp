@@ -18,6 +18,7 @@
 #include "traverse/evaluation/json.hpp"
 #include "traverse/evaluation/table.hpp"
 #include "traverse/files/input_error.hpp"
+#include "traverse/files/json_document.hpp"
 #include "traverse/files/numbers.hpp"
 #include "traverse/pipeline/run_digests.hpp"
 #include "traverse/pipeline/run_folder.hpp"
@@ -171,6 +172,16 @@ void take_frame_of_run(const fs::path& run, evaluation::KittiDriftOptions& optio
   (kitti.T_body_camera ? options.camera_frame : options.body_frame) = kitti.frame;
 }
 
+/// What a run says of itself, which its figures do not.
+void print_status_of_run(const fs::path& run) {
+  const fs::path file = run / "run.json";
+  if (!fs::exists(file)) return;
+  const auto document = files::JsonDocument::read(file);
+  const files::JsonValue record = document.root();
+  const std::string status = record["status"].text();
+  if (status != "ok") fmt::print("run          {}: {}\n", status, record["reason"].text());
+}
+
 /// Poses are matched by index: their frame numbers have to be that.
 void require_no_gaps(const fs::path& file, const std::vector<std::size_t>& frame_numbers) {
   for (std::size_t i = 0; i < frame_numbers.size(); ++i) {
@@ -225,6 +236,7 @@ void evaluate(const Arguments& arguments) {
     require_files_of_run(arguments);
     estimate_file = arguments.estimate / "trajectory.tum";
     take_frame_of_run(arguments.estimate, options.kitti);
+    print_status_of_run(arguments.estimate);
   }
   const ReadTrajectory estimate(estimate_file, arguments.format);
   const ReadTrajectory reference(reference_file, arguments.format);

@@ -306,7 +306,8 @@ void finish_run(const RunArguments& arguments, pipeline::RunDestination& destina
   }
   if (record.status == RunStatus::kLost) {
     throw std::runtime_error(
-        fmt::format("the run is lost. {} Everything is written: {}", record.reason, stands));
+        fmt::format("the run is lost. {} Everything is written: {}",
+                    record.health ? record.health->reasons.front().text : record.reason, stands));
   }
   if (!record.evaluation_error.empty()) {
     throw std::runtime_error("the run is complete, but it could not be compared with " +

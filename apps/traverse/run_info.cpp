@@ -99,7 +99,8 @@ void add_figures(const LookedAtRun& run, Table& table) {
   const evaluation::Evaluation& evaluation = run.contents()->evaluation;
   if (evaluation.comparison) {
     const char* name = "accuracy";
-    for (const std::string& line : accuracy_lines(*evaluation.comparison)) {
+    for (const std::string& line :
+         accuracy_lines(*evaluation.comparison, run.contents()->health.is_navigation)) {
       table.add_row({name, line});
       name = "";
     }

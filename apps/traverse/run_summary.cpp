@@ -30,8 +30,8 @@ void print_status(const pipeline::RunRecord& record) {
 std::string frames_text(const pipeline::RunRecord& record) {
   std::string text = fmt::format("{} estimated", record.frames_used);
   if (record.health && record.health->registrable > 0) {
-    text +=
-        fmt::format(", {} of {} registered", record.health->registered, record.health->registrable);
+    text += fmt::format(", {} of {} {}", record.health->registered, record.health->registrable,
+                        record.health->is_navigation ? "by fixes or wheels" : "registered");
   }
   if (record.skipped.empty()) return text + ", no record skipped";
   for (const auto& [reason, count] : record.skipped.by_reason()) {
@@ -52,9 +52,9 @@ void print_sensors(const pipeline::RunRecord& record) {
   }
 }
 
-void print_accuracy(const evaluation::Comparison& comparison) {
+void print_accuracy(const evaluation::Comparison& comparison, bool by_fixes) {
   const char* name = "accuracy";
-  for (const std::string& line : accuracy_lines(comparison)) {
+  for (const std::string& line : accuracy_lines(comparison, by_fixes)) {
     print_line(name, line);
     name = "";
   }
@@ -79,7 +79,7 @@ void print_steps(const dataset::RecordingInfo& recording) {
 
 }  // namespace
 
-std::vector<std::string> accuracy_lines(const evaluation::Comparison& comparison) {
+std::vector<std::string> accuracy_lines(const evaluation::Comparison& comparison, bool by_fixes) {
   std::vector<std::string> lines;
   const auto add_ape = [&](const std::vector<evaluation::Ape>& list, const std::string& alignment) {
     for (const evaluation::Ape& ape : list) {
@@ -88,7 +88,7 @@ std::vector<std::string> accuracy_lines(const evaluation::Comparison& comparison
                                   ape.statistics.count, alignment));
     }
   };
-  if (const auto& kitti = comparison.kitti) {
+  if (const auto& kitti = comparison.kitti; kitti && !by_fixes) {
     lines.push_back(
         fmt::format("drift {:.2f} %, {:.4f} deg/m (KITTI, mean over {} segments, {} frame)",
                     kitti->translation_percent, kitti->rotation_deg_per_m, kitti->segments.size(),
@@ -119,9 +119,15 @@ void print_run_summary(const pipeline::RunRecord& record, const pipeline::RunFol
     print_line("reference", "not used: " + refused);
   }
   for (const plausibility::Finding& finding : record.contradictions) {
-    print_line(finding.is_accepted ? "accepted" : "warning", plausibility::to_text(finding));
+    if (finding.is_accepted) {
+      print_line("accepted", plausibility::to_text(finding));
+    } else if (!finding.statement.empty()) {
+      print_line("mended by", finding.statement);
+    }
   }
-  if (evaluation.comparison) print_accuracy(*evaluation.comparison);
+  if (evaluation.comparison) {
+    print_accuracy(*evaluation.comparison, record.health && record.health->is_navigation);
+  }
   print_sensors(record);
   if (!record.reference_file) print_unused(record.recording);
   print_steps(record.recording);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +16,9 @@
 
 #include "traverse/dataset/open_recording.hpp"
 #include "traverse/dataset/recording_writer.hpp"
+#include "traverse/files/atomic_file.hpp"
 #include "traverse/files/json_document.hpp"
+#include "traverse/files/text_file.hpp"
 
 #include "dataset/made_recordings.hpp"
 #include "end_to_end/program.hpp"
@@ -191,6 +194,32 @@ TEST_F(LostRuns, AreNotOkByAnyOdometryWithOrWithoutAReference) {
       }
     }
   }
+}
+
+/// The map of a run that does not move is the sharpest, which ranked such runs first.
+TEST_F(LostRuns, AreNoRankInABatch) {
+  files::write_text(
+      folder_ / "plan.yaml",
+      "recordings: [town.rawlog]\nreports: false\nmetrics: [mme, registered_share]\n"
+      "pipelines:\n  - {preset: traverse, name: still, "
+      "set: {alignment.min_matches: 1000000}}\n  - {preset: traverse, name: moving}\n");
+  const ProgramResult batch = run_program("batch '" + (folder_ / "plan.yaml").string() + "' -o '" +
+                                          (folder_ / "out").string() + "'");
+  EXPECT_EQ(batch.status, 1) << batch.everything();
+  EXPECT_THAT(batch.output, HasSubstr("1 of 2 runs are ok"));
+  EXPECT_THAT(batch.messages, HasSubstr("1 lost"));
+  const auto document = files::JsonDocument::read(folder_ / "out" / "results.json");
+  const files::JsonValue runs = document.root()["runs"];
+  ASSERT_EQ(runs.size(), 2U);
+  EXPECT_EQ(runs[0]["outcome"].text(), "lost");
+  EXPECT_THAT(runs[0]["reason"].text(), HasSubstr("0 of 34 frames were registered"));
+  EXPECT_FALSE(runs[0]["metrics"].has("mme"));
+  EXPECT_EQ(runs[0]["metrics"]["registered_share"].number(), 0);
+  EXPECT_EQ(runs[1]["outcome"].text(), "ok");
+  EXPECT_TRUE(runs[1]["metrics"].has("mme"));
+  const std::string page = files::read_text(folder_ / "out" / "batch.html");
+  EXPECT_THAT(page, HasSubstr("1 of 2 runs ok"));
+  EXPECT_LT(page.find("\"name\":\"moving\""), page.find("\"name\":\"still\""));
 }
 
 TEST_F(LostRuns, SayWhyOnTheConsoleAndWriteEverything) {

@@ -86,7 +86,9 @@ geometry::Twist moved_to_body(const geometry::Twist& velocity_sensor,
 
 LidarEstimator::LidarEstimator(const MakeOdometry& make, const dataset::RecordingInfo& recording)
     : sensor_(first_lidar(recording)),
-      odometry_(make(*sensor_.lidar, recording.motion_compensated)) {
+      odometry_(make(*sensor_.lidar, recording.motion_compensated)),
+      has_times_(recording.motion_compensated ||
+                 sensor_.lidar->time_source != sensors::TimeSource::kNone) {
   for_each_value(lidar::Frame{},
                  [&](std::string_view name, double) { columns_.emplace_back(name); });
   const auto& further = odometry_->further_columns();
@@ -106,7 +108,10 @@ LidarEstimator::LidarEstimator(const LidarEstimator& other)
       latest_(other.latest_),
       frames_(other.frames_),
       not_registered_(other.not_registered_),
-      imu_samples_(other.imu_samples_) {}
+      imu_samples_(other.imu_samples_),
+      has_times_(other.has_times_),
+      path_m_(other.path_m_),
+      last_position_(other.last_position_) {}
 
 std::unique_ptr<LidarEstimator> LidarEstimator::copy() const {
   return std::unique_ptr<LidarEstimator>(new LidarEstimator(*this));
@@ -157,6 +162,9 @@ std::vector<PoseFrame> LidarEstimator::to_body(std::vector<lidar::Frame> frames)
   latest_ = std::move(frames);
   std::vector<PoseFrame> result;
   for (const lidar::Frame& frame : latest_) {
+    const Eigen::Vector3d& position = frame.T_map_lidar.translation;
+    if (frames_ > 0) path_m_ += (position - last_position_).norm();
+    last_position_ = position;
     not_registered_ += frames_ > 0 && !frame.health.registered ? 1 : 0;
     ++frames_;
     PoseFrame pose;
@@ -218,6 +226,18 @@ std::vector<SensorUse> LidarEstimator::sensor_use() const {
     imu.reason = "the odometry uses no IMU";
   }
   return {std::move(scans), std::move(imu)};
+}
+
+std::vector<HealthReason> LidarEstimator::troubles() const {
+  constexpr double kBlur_m = 0.1;  // several times what ranges are off by
+  if (has_times_ || frames_ < 2) return {};
+  const double in_a_scan_m = path_m_ / static_cast<double>(frames_ - 1);
+  if (in_a_scan_m <= kBlur_m) return {};
+  return {{Health::kDegraded, "not_deskewed",
+           fmt::format("The lidar moves by {:.2g} m from scan to scan, and scans are used as if it "
+                       "stood: the times of their points are unknown (deskewed already: "
+                       "--recording motion_compensated=true).",
+                       in_a_scan_m)}};
 }
 
 std::vector<Decision> LidarEstimator::decisions() const {

@@ -30,6 +30,7 @@ class LidarEstimator final : public Estimator {
   std::string points_are() const override;
   std::vector<Decision> decisions() const override;
   std::vector<SensorUse> sensor_use() const override;
+  std::vector<HealthReason> troubles() const override;
   std::vector<optimization::FactorUse> factors() const override { return odometry_->factors(); }
   std::unique_ptr<Estimator> clone() const override;
   std::size_t bytes() const override { return odometry_->bytes(); }
@@ -57,6 +58,9 @@ class LidarEstimator final : public Estimator {
   std::size_t frames_ = 0;
   std::size_t not_registered_ = 0;
   std::size_t imu_samples_ = 0;
+  bool has_times_;  ///< of points, or the scans need none
+  double path_m_ = 0;
+  Eigen::Vector3d last_position_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace traverse::pipeline

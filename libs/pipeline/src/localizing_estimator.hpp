@@ -41,6 +41,7 @@ class LocalizingEstimator final : public Estimator {
   std::string points_are() const override { return odometry_->points_are(); }
   std::vector<Decision> decisions() const override;
   std::vector<SensorUse> sensor_use() const override { return odometry_->sensor_use(); }
+  std::vector<HealthReason> troubles() const override { return odometry_->troubles(); }
   std::vector<optimization::FactorUse> factors() const override { return odometry_->factors(); }
   std::unique_ptr<Estimator> clone() const override;
   std::vector<Eigen::Vector3d> local_map() const override { return odometry_->local_map(); }

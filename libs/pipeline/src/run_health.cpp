@@ -27,8 +27,9 @@ constexpr double kTenth = 0.1;
 constexpr double kLongestPrediction_s = 1;
 /// An acceleration that is off by 0.02 m/s^2 (a consumer IMU, 0.1 degree of tilt) is 1 m after it.
 constexpr double kLongestDeadReckoning_s = 10;
-/// Independent outliers do not come so often in a row, nor for so long.
-constexpr double kLongRejection_s = 1;
+/// A gate that leaves out one in a thousand leaves out a tenth only of readings that are wrong, or
+/// by an estimate that is; and so long only if it cannot tell which.
+constexpr double kLongRejection_s = kLongestDeadReckoning_s;
 /// Of 10 m and more a path has a shape that can be told from its noise.
 constexpr double kLeastPath_m = 10;
 /// An estimate that misses by half of what standing still would miss tells no path; one that misses
@@ -90,20 +91,25 @@ Spells spells_of(const std::vector<bool>& marked, const HealthEvidence& evidence
   return spells;
 }
 
-/// Degenerate frames that lie longer than a prediction holds after the last that was determined; of
-/// those at the beginning all, since no motion was known that could have gone on.
+/// Degenerate frames that lie longer than a prediction holds after the last that was determined. Of
+/// those at the beginning all, unless they are soon over: no motion was known that could have gone
+/// on.
 std::size_t unsupported(const FrameEvidence& frames, const geometry::Trajectory& path) {
   std::size_t count = 0;
+  std::size_t at_beginning = 0;
   std::optional<std::size_t> determined;
   for (std::size_t i = 1; i < path.size(); ++i) {
     if (frames.is_lost[i]) continue;
     if (!frames.is_degenerate[i]) {
+      if (!determined && seconds_between(path, 0, i) <= kLongestPrediction_s) at_beginning = 0;
       determined = i;
-    } else if (!determined || seconds_between(path, *determined, i) > kLongestPrediction_s) {
+    } else if (!determined) {
+      ++at_beginning;
+    } else if (seconds_between(path, *determined, i) > kLongestPrediction_s) {
       ++count;
     }
   }
-  return count;
+  return at_beginning + count;
 }
 
 Gaps gaps_of(const HealthEvidence& evidence) {
@@ -254,14 +260,14 @@ void judge_motion(const RunHealth& health, const FrameEvidence& frames, Reasons&
                             frames.frozen, counted(health.registered, "frame")));
   }
   if (health.leaps.count > 0) {
-    reasons.add(frames.knows_place ? Health::kDegraded : Health::kLost, "leap",
-                fmt::format("The path leaps by {} within {} at frame {}{}: no vehicle moves like "
-                            "that.",
-                            metres_text(health.leaps.largest_m), seconds_text(health.leaps.seconds),
-                            health.leaps.frame,
-                            health.leaps.count > 1
-                                ? fmt::format(" and {} more times", health.leaps.count - 1)
-                                : ""));
+    reasons.add(
+        frames.knows_place ? Health::kDegraded : Health::kLost, "leap",
+        fmt::format(
+            "The path leaps by {} within {} at frame {}{}: no vehicle moves like "
+            "that.",
+            metres_text(health.leaps.largest_m), seconds_text(health.leaps.seconds),
+            health.leaps.frame,
+            health.leaps.count > 1 ? fmt::format(", one of {} leaps", health.leaps.count) : ""));
   }
   if (health.restarts > 0) {
     reasons.add(Health::kDegraded, "restarted",
@@ -392,6 +398,7 @@ std::string RunHealth::summary() const {
 RunHealth assess(const HealthEvidence& evidence) {
   RunHealth health;
   const FrameEvidence frames = read_frame_evidence(evidence.frames, evidence.T_map_body);
+  health.is_navigation = frames.is_navigation;
   health.frames = evidence.T_map_body.size();
   health.registrable = frames.registrable;
   health.registered = frames.registered;

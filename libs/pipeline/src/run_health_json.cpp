@@ -120,6 +120,7 @@ Contradiction contradiction_from(const JsonValue& json) {
 nlohmann::ordered_json to_json(const RunHealth& health) {
   return {{"verdict", name_of(health.verdict)},
           {"reasons", list_json(health.reasons, reason_json)},
+          {"navigation", health.is_navigation},
           {"frames", health.frames},
           {"registrable", health.registrable},
           {"registered", health.registered},
@@ -154,6 +155,7 @@ RunHealth health_from_json(const JsonValue& json) {
   RunHealth health;
   health.verdict = health_named(json["verdict"]);
   health.reasons = list_from(json["reasons"], reason_from);
+  health.is_navigation = json["navigation"].boolean();
   health.frames = json["frames"].count();
   health.registrable = json["registrable"].count();
   health.registered = json["registered"].count();

@@ -255,11 +255,13 @@ std::vector<SensorUse> SlamEstimator::sensor_use() const {
 }
 
 std::vector<HealthReason> SlamEstimator::troubles() const {
-  if (slam_.failure().empty()) return {};
-  return {
+  std::vector<HealthReason> troubles = odometry_->troubles();
+  if (slam_.failure().empty()) return troubles;
+  troubles.push_back(
       {Health::kDegraded, "pose_graph",
        fmt::format("The pose graph could not be solved, its poses are those of {}: {}",
-                   slam_.is_corrected() ? "the solution before" : "odometry", slam_.failure())}};
+                   slam_.is_corrected() ? "the solution before" : "odometry", slam_.failure())});
+  return troubles;
 }
 
 std::vector<optimization::FactorUse> SlamEstimator::factors() const {

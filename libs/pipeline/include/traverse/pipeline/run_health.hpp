@@ -57,6 +57,7 @@ struct RunHealth {
   Health verdict = Health::kOk;
   std::vector<HealthReason> reasons;  ///< the most severe first; none if ok
 
+  bool is_navigation = false;  ///< by fixes, wheels and the IMU, not by scans
   std::size_t frames = 0;
   /// Frames whose pose could rest on a measurement of where the vehicle is: all but the first, and
   /// but those in an outage that was asked for.
@@ -67,7 +68,7 @@ struct RunHealth {
   Spells lost;                         ///< registrable frames that were not registered
   Spells degenerate;                   ///< registered, but not in every direction of motion
   /// Degenerate frames for which a prediction does not hold any more: more than a second after the
-  /// last that was determined, or before any was.
+  /// last that was determined, or for as long before any was.
   std::size_t unsupported = 0;
   std::size_t restarts = 0;                  ///< the estimator gave up what it knew and began again
   std::optional<double> first_pose_after_s;  ///< from the first measurement of the recording
