@@ -186,11 +186,19 @@ TEST_F(LostRuns, AreNotOkByAnyOdometryWithOrWithoutAReference) {
             fault.name + (with_reference ? ", with its reference, by " : ", by ") + preset;
         const ProgramResult result = run(broken, "--pipeline " + preset);
         EXPECT_NE(status(), "ok") << what << '\n' << result.everything();
-        if (status() == "lost") EXPECT_EQ(result.status, 1) << what;
-        if (status() == "degraded") EXPECT_EQ(result.status, 0) << what;
-        if (status() == "none") EXPECT_NE(result.status, 0) << what;
+        if (status() == "lost") {
+          EXPECT_EQ(result.status, 1) << what;
+        }
+        if (status() == "degraded") {
+          EXPECT_EQ(result.status, 0) << what;
+        }
+        if (status() == "none") {
+          EXPECT_NE(result.status, 0) << what;
+        }
         // No score, of which a run that does not move has the best.
-        if (status() == "lost") EXPECT_THAT(result.output, Not(HasSubstr("MME"))) << what;
+        if (status() == "lost") {
+          EXPECT_THAT(result.output, Not(HasSubstr("MME"))) << what;
+        }
       }
     }
   }
