@@ -186,17 +186,17 @@ TEST(PointCloudFolder, AStatedUnitOfTimesIsStronger) {
   EXPECT_THAT(fact_reason(*source, "time field"), HasSubstr("point_time_unit_s"));
 }
 
-TEST(PointCloudFolder, AScanWithOneTimeForAllPointsIsSkipped) {
-  for (const int bad : {0, 2, 3}) {  // the last one is what the others are judged by
-    const TemporaryFolder folder;
-    static_cast<void>(with_times_in<float>(folder.path(), 1, 0.1));
-    PointCloud cloud = three_points();
-    cloud.add("time", std::vector<float>{0.02F, 0.02F, 0.02F});
-    write_pcd(folder / fmt::format("{}.pcd", bad), cloud);
-    const auto source = open(folder.path());
-    EXPECT_EQ(read_scans(*source).size(), 3U) << bad;
-    EXPECT_THAT(skipped_in(*source), ElementsAre(HasSubstr("points measured one after the other")));
-  }
+TEST(PointCloudFolder, AScanWithOneTimeForAllPointsDecidesNothing) {
+  const TemporaryFolder folder;
+  static_cast<void>(with_times_in<float>(folder.path(), 1, 0.1));
+  PointCloud cloud = three_points();
+  cloud.add("time", std::vector<float>{0.02F, 0.02F, 0.02F});
+  write_pcd(folder / "3.pcd", cloud);  // the last one is what the others are judged by
+  const auto source = open(folder.path());
+  const auto scans = read_scans(*source);
+  ASSERT_EQ(scans.size(), 4U);
+  EXPECT_THAT(scans[0]->time, ElementsAre(0, FloatEq(0.05F), FloatEq(0.1F)));
+  EXPECT_THAT(scans[3]->time, ElementsAre(0.02F, 0.02F, 0.02F));
 }
 
 TEST(PointCloudFolder, NamesOfTimeFieldsOfTheField) {

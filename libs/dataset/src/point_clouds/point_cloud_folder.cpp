@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -149,19 +148,6 @@ double interval_of(const std::vector<ScanFile>& scans, double otherwise) {
   return median > 0 ? median : otherwise;
 }
 
-/// A scan all of whose points have one time, among others, would be deskewed as if it had been
-/// measured at once.
-sensors::LidarScan with_times(sensors::LidarScan scan, const fs::path& file) {
-  const bool is_one = std::adjacent_find(scan.time.begin(), scan.time.end(),
-                                         std::not_equal_to<>()) == scan.time.end();
-  if (scan.time.size() > 1 && is_one) {
-    throw InputError(file, files::Place::whole_file(),
-                     "points measured one after the other, as in the other scans",
-                     "one time for all of them");
-  }
-  return scan;
-}
-
 /// What the files themselves tell about the lidar.
 ProfileChoice profile_from(const Example& example, bool has_time) {
   ProfileChoice choice;
@@ -211,10 +197,8 @@ std::unique_ptr<Source> open_point_cloud_folder(const fs::path& folder, const Op
       choose_reference(info, statements, std::nullopt, stamps_of(recording.scans));
   note_unused_files(info, options, recording.reference, info.expected_scans);
   recording.read = [time, unit_m = statements->point_unit_m](const ScanFile& scan) {
-    return with_times(
-        in_metres(scan_from_cloud(read_point_cloud(scan.file), *scan.stamp, time, scan.file),
-                  unit_m),
-        scan.file);
+    return in_metres(scan_from_cloud(read_point_cloud(scan.file), *scan.stamp, time, scan.file),
+                     unit_m);
   };
   return make_folder_source(std::move(recording));
 }

@@ -47,7 +47,7 @@ void look_at_times(const View& view, std::vector<Finding>& findings) {
            fmt::format("{} of {} scans have one time for all points; {:.4g} s from first "
                        "to last in the others",
                        equal, spans.size(), span),
-           "Such a scan is not deskewed, or as if it were measured all at once",
+           "Such a scan cannot be deskewed",
            {}});
     }
     const double share = span / *interval;
