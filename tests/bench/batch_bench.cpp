@@ -90,7 +90,7 @@ void write_results(benchmark::State& state) {
     const auto variants = summarise(results, plan.budgets, plan.metrics.front());
     write_csv(folder / "results.csv", results);
     write_json(folder / "results.json", plan, results);
-    benchmark::DoNotOptimize(batch_page({plan, results, variants, baseline, {}, {}},
+    benchmark::DoNotOptimize(batch_page({plan, results, variants, baseline, {}, {}, {}},
                                         std::string(TRAVERSE_SOURCE_DIR) + "/reports/templates"));
   }
 }
