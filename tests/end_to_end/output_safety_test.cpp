@@ -342,7 +342,7 @@ TEST_F(OutputSafety, LackOfMemoryIsSaidInWords) {
 /// A batch of three short runs.
 constexpr const char* kPlan = R"(
 recordings:
-  - {simulate: corridor_loop, arguments: {first: 30, duration: 0.3}}
+  - {simulate: town_short, arguments: {first: 30, duration: 0.3, sensor: vlp16}}
 pipelines:
   - {preset: floam, set: {start.scans: 0, first_registration_steps: 2}}
 repeats: 3

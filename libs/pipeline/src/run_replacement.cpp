@@ -24,6 +24,11 @@ namespace traverse::pipeline {
 
 namespace {
 
+/// Of a run that went to its end, however far it can be believed.
+bool is_complete(const std::string& status) {
+  return status == "ok" || status == "degraded" || status == "lost";
+}
+
 namespace fs = std::filesystem;
 using FoundFolder = FoundInPlace::Kind;
 
@@ -48,7 +53,8 @@ std::string status_in(const fs::path& record) {
                         is("recording", Type::object) && is("program", Type::object);
   if (!complete) return {};
   auto status = json.at("status").get<std::string>();
-  return status == "ok" || status == "failed" || status == "interrupted" ? status : std::string();
+  const bool is_status = is_complete(status) || status == "failed" || status == "interrupted";
+  return is_status ? status : std::string();
 }
 
 bool is_folder(const fs::path& path) {
@@ -198,7 +204,7 @@ FoundInPlace look_at_place(const fs::path& folder) {
     return {FoundFolder::kForeign, "images in it is not a folder"};
   }
   const bool has_poses = is_there(run.trajectory());
-  return {has_poses ? FoundFolder::kRun : FoundFolder::kNoPoses, "", status == "ok"};
+  return {has_poses ? FoundFolder::kRun : FoundFolder::kNoPoses, "", is_complete(status)};
 }
 
 void carry_over_foreign(const fs::path& from, const fs::path& to) {

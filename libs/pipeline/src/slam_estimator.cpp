@@ -245,10 +245,16 @@ std::vector<SensorUse> SlamEstimator::sensor_use() const {
   }
   if (!receiver_.empty()) {
     SensorUse fixes{.label = receiver_, .kind = sensors::SensorKind::kGnss};
-    for (const pose_graph::Fix& fix : slam_.graph().fixes()) {
-      ++(fix.is_rejected() ? fixes.rejected : fixes.used);
+    bool orient = false;  // the map: else they are no part of the solution, and none is rejected
+    for (const pose_graph::Fix& fix : slam_.graph().fixes()) orient |= fix.weight > 0;
+    if (orient) {
+      for (const pose_graph::Fix& fix : slam_.graph().fixes()) {
+        ++(fix.is_rejected() ? fixes.rejected : fixes.used);
+      }
     }
-    fixes.reason = "those after a keyframe hold the map";
+    fixes.is_taken = orient;
+    fixes.reason = orient ? "those after a keyframe hold the map"
+                          : "they are too near to each other to orient the map";
     uses.push_back(std::move(fixes));
   }
   return uses;
