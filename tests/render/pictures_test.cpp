@@ -218,7 +218,7 @@ TEST(ScanMatches, ResidualsAreLinesOfTheStatedLength) {
   EXPECT_TRUE(says(drawing, "30 on lines"));
   expect_readable(drawing);
 
-  EXPECT_TRUE(says(scan_matches({points, {}, {}}, drive, kCaption, {}), "did not tell"));
+  EXPECT_TRUE(says(scan_matches({points, {}, {}}, drive, kCaption, {}), "did not keep"));
   EXPECT_NO_THROW(scan_matches({}, geometry::Trajectory::unstamped({}), {}, {}));
   EXPECT_THROW(scan_matches({points, {points, offset, none, {}}, {}}, drive, kCaption, {}),
                std::invalid_argument);
