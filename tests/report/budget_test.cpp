@@ -44,6 +44,22 @@ TEST_F(Budget, AFigureThatIsNotDefinedKeepsNoLimit) {
   EXPECT_FALSE(check("map_entropy_nats: 100\n").passed());  // the made run has no score
 }
 
+TEST_F(Budget, OfWhatIsBetterWhenItIsMoreIsTheLeast) {
+  EXPECT_TRUE(check("registered_share: 1\n").passed());
+  EXPECT_THAT(check("registered_share: 1\n").table(), HasSubstr("1.00, at least 1.00"));
+  EXPECT_FALSE(check("registered_share: 1.01\n").passed());
+  EXPECT_TRUE(check("restarts: 0\nlost_frames: 0\n").passed());
+}
+
+TEST_F(Budget, TakesTheFormerNamesOfTheClosingError) {
+  const BudgetResult result = check("end_drift_percent: 5\nend_error_m: 1e-9\n");
+  ASSERT_EQ(result.lines.size(), 2U);
+  EXPECT_EQ(result.lines[0].figure, "closing_error_m");
+  EXPECT_EQ(result.lines[1].figure, "closing_error_percent");
+  EXPECT_FALSE(result.lines[0].passed());
+  EXPECT_TRUE(result.lines[1].passed());
+}
+
 TEST_F(Budget, RefusesUnknownFiguresAndEmptyBudgets) {
   EXPECT_THROW(check("ape_rmse: 1\n"), files::InputError);
   EXPECT_THROW(check("{}\n"), files::InputError);
