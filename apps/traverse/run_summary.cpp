@@ -72,7 +72,7 @@ void print_unused(const dataset::RecordingInfo& recording) {
 void print_steps(const dataset::RecordingInfo& recording) {
   for (const dataset::Fact& fact : recording.facts) {
     if (dataset::is_clock_step(fact)) {
-      print_line("clock", fmt::format("{}: {}; {}", fact.name, fact.value, fact.reason));
+      print_line("stamps", fmt::format("{}: {}; {}", fact.name, fact.value, fact.reason));
     }
   }
 }

@@ -31,16 +31,16 @@ Undetermined undetermined_of(PositionMoments::Open open, AlignmentMode mode) {
   return Undetermined::kNothing;
 }
 
-/// Where positions tell all, by the very sums of evo, so that the figures are the same.
+/// By the very sums of evo where they give something, so that figures are the same.
 geometry::Similarity fit(const Poses& estimate, const Poses& reference, std::size_t used,
                          const PositionMoments& moments, bool with_scale) {
-  if (moments.open() != PositionMoments::Open::kNothing) return moments.alignment(with_scale);
+  if (moments.open() == PositionMoments::Open::kAll) return moments.alignment(with_scale);
   try {
     return geometry::umeyama(
         used, [&](std::size_t i) { return estimate[i].translation; },
         [&](std::size_t i) { return reference[i].translation; }, with_scale);
   } catch (const geometry::DegenerateAlignment&) {
-    return moments.alignment(with_scale);  // of a drive of nanometres
+    return moments.alignment(with_scale);
   }
 }
 

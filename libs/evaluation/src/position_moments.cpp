@@ -70,7 +70,7 @@ PositionMoments::PositionMoments(const Poses& estimate, const Poses& reference, 
 void PositionMoments::find_open() {
   constexpr double kRounding = 1e-12;    // relative to where positions are
   constexpr double kCommon = 0.5;        // of the spread, to tell a rotation
-  constexpr double kStraight = 0.05;     // across the line, relative to along it
+  constexpr double kStraight = 0.02;     // across the line, relative to along it
   constexpr double kNoDeparture = 1e-6;  // the same, of a line that is exact
 
   const Extent x(xx_);

@@ -249,7 +249,9 @@ void check_reference(const dataset::Source& source, const geometry::Trajectory& 
 void evaluate_run(const dataset::Source& source, const Estimator& estimator, RunResults& results,
                   const ReadingCount& readings, const RunFolder& folder, RunRecord& record) {
   evaluation::Evaluation evaluation = evaluate_trajectory(source, results.trajectory(), record);
-  if (!record.north_map && evaluation.comparison && source.reference()->north_map) {
+  const bool is_oriented =
+      evaluation.comparison && evaluation.comparison->alignment.determines_rotation();
+  if (!record.north_map && is_oriented && source.reference()->north_map) {
     record.north_map = evaluation.comparison->alignment.T_reference_estimate.rotation.transpose() *
                        *source.reference()->north_map;
   }

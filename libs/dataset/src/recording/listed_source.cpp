@@ -83,8 +83,9 @@ void ListedRecords::settle(std::vector<Fact>& facts) {
     std::vector<std::optional<geometry::Stamp>> stamps;
     stamps.reserve(numbers.size());
     for (const std::size_t i : numbers) stamps.push_back(sensors::stamp_of(measurements_[i]));
-    sensors.push_back({sensor, StampSequence::of(stamps),
-                       [&](std::size_t record) { return place_of(numbers[record]); }});
+    sensors.push_back(
+        {sensor, StampSequence::of(stamps),
+         [&place_of, own = &numbers](std::size_t record) { return place_of((*own)[record]); }});
   }
   settle_steps(sensors, facts);
 

@@ -1,5 +1,7 @@
 #include "trajectories/quaternion_order.hpp"
 
+#include <algorithm>
+
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
@@ -23,13 +25,13 @@ void QuaternionOrder::add(const Eigen::Vector3d& p_map, const Eigen::Vector4d& c
   every_ *= 2;
 }
 
-double QuaternionOrder::steadiness(bool is_w_first) const {
+double QuaternionOrder::steadiness(bool is_w_first, std::size_t stride) const {
   Eigen::Vector3d sum_body = Eigen::Vector3d::Zero();
   double length = 0;
-  for (std::size_t i = 1; i < kept_.size(); ++i) {
-    const Eigen::Vector3d step = kept_[i].p_map - kept_[i - 1].p_map;
+  for (std::size_t i = stride; i < kept_.size(); i += stride) {
+    const Eigen::Vector3d step = kept_[i].p_map - kept_[i - stride].p_map;
     // Half way the body heads along the chord: the mean of the two rotations.
-    Eigen::Quaterniond before = rotation_from(kept_[i - 1].columns, is_w_first);
+    Eigen::Quaterniond before = rotation_from(kept_[i - stride].columns, is_w_first);
     const Eigen::Quaterniond after = rotation_from(kept_[i].columns, is_w_first);
     if (before.dot(after) < 0) before.coeffs() = -before.coeffs();
     const Eigen::Quaterniond between(before.coeffs() + after.coeffs());
@@ -41,10 +43,18 @@ double QuaternionOrder::steadiness(bool is_w_first) const {
 
 std::optional<std::string> QuaternionOrder::hint(bool was_w_first) const {
   constexpr double kSteady = 0.9;
-  constexpr double kUnsteady = 0.98;
+  constexpr double kUnsteady = 0.99;
   constexpr double kRatio = 0.25;  // of what is missing to perfectly steady
-  const double as_taken = steadiness(was_w_first);
-  const double otherwise = steadiness(!was_w_first);
+  constexpr std::size_t kFewestSteps = 6;
+  double as_taken = 1;
+  double otherwise = 0;
+  for (std::size_t stride = 1; stride * kFewestSteps < kept_.size(); stride *= 2) {
+    const double taken = steadiness(was_w_first, stride);
+    const double other = steadiness(!was_w_first, stride);
+    if (std::max(taken, other) < std::max(as_taken, otherwise) && stride > 1) continue;
+    as_taken = taken;
+    otherwise = other;
+  }
   const bool is_other =
       otherwise > kSteady && as_taken < kUnsteady && 1 - otherwise < kRatio * (1 - as_taken);
   if (!is_other) return std::nullopt;
@@ -52,7 +62,7 @@ std::optional<std::string> QuaternionOrder::hint(bool was_w_first) const {
   constexpr const char* kWLast = "x y z w";
   return fmt::format(
       "the quaternions were taken as {}, the order of this format, but look like {}: so the body "
-      "keeps its direction of travel while it turns ({:.2f} of 1 against {:.2f})",
+      "keeps its direction of travel while it turns ({:.3f} of 1 against {:.3f})",
       was_w_first ? kWFirst : kWLast, was_w_first ? kWLast : kWFirst, otherwise, as_taken);
 }
 

@@ -31,8 +31,9 @@ class QuaternionOrder {
     Eigen::Vector3d p_map;
     Eigen::Vector4d columns;
   };
-  /// Length of the sum of all steps in the body's frame, of the sum of their lengths.
-  double steadiness(bool is_w_first) const;
+  /// Length of the sum of all steps in the body's frame, of the sum of their lengths. A step leads
+  /// from a pose to the `stride`-th after it: over longer ones noise matters less.
+  double steadiness(bool is_w_first, std::size_t stride) const;
 
   static constexpr std::size_t kMostKept = 1024;
   std::vector<Kept> kept_;

@@ -61,8 +61,9 @@ struct Alignment {
   geometry::Pose3 T_reference_estimate;  ///< from the map of the estimate to that of the reference
   double scale = 1;
   std::size_t poses_used = 0;  ///< that determined the transform: 0 for kNone, 1 for kOrigin
-  /// What of the transform the positions do not tell. Of the rotation that is what the orientations
-  /// agree on best, of the scale 1.
+  /// What of the transform the positions do not tell. There it holds what rounding and noise make
+  /// of the least squares, as in evo; where those fail, what the orientations agree on best, and 1
+  /// for the scale.
   Undetermined undetermined = Undetermined::kNothing;
   std::string reason = {};  ///< why, a sentence without a full stop; empty: nothing is left open
 
@@ -77,7 +78,7 @@ struct Alignment {
 /// Source: Umeyama, PAMI 1991, on the positions; for kOrigin T_ref0 T_est0^-1.
 ///
 /// Positions on a line do not determine the rotation about it: where those of one trajectory depart
-/// from their line by less than a twentieth of their spread along it, and the two differ across it
+/// from their line by less than a fiftieth of their spread along it, and the two differ across it
 /// by no less than either departs. Positions that stand still, or of whose spread less than half is
 /// common to both, do not determine any rotation, nor the scale.
 /// \throws std::invalid_argument if the sizes differ or are zero, or positions are not finite.
