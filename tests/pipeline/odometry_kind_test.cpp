@@ -46,6 +46,7 @@ class CreepingOdometry final : public lidar::Odometry {
     lidar::Frame frame;
     frame.index = frames_;
     frame.stamp = scan.stamp;
+    frame.health.registered = frames_ > 0;
     frame.T_map_lidar.translation.x() = options_.step_m * static_cast<double>(frames_++);
     frame.health.iterations = options_.threads;  // to be seen in the record
     return {frame};

@@ -236,8 +236,9 @@ TEST(RunHealth, OneRejectedFixIsAnOutlierAndASecondOfThemIsNot) {
   };
   EXPECT_EQ(rejected(1).verdict, Health::kOk);
   EXPECT_EQ(rejected(1).sensors.front().rejected, 1U);
-  EXPECT_EQ(rejected(15).verdict, Health::kDegraded);
-  EXPECT_NEAR(rejected(15).sensors.front().longest_rejected_s, 1.4, 1e-9);
+  EXPECT_EQ(rejected(15).verdict, Health::kOk);  // less than a tenth, and not for long
+  EXPECT_EQ(rejected(25).verdict, Health::kDegraded);
+  EXPECT_NEAR(rejected(25).sensors.front().longest_rejected_s, 2.4, 1e-9);
   EXPECT_EQ(rejected(120).verdict, Health::kLost);
   EXPECT_THAT(rejected(120).summary(), HasSubstr("120 of 200 readings"));
 }

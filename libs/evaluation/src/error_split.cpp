@@ -40,11 +40,8 @@ class PathDirection {
   /// Unit vector, nothing where the path stays within reach on both sides. \param k never falls
   std::optional<Vector3d> at(std::size_t k) {
     const Vector3d here = place(k);
-    while (before_ + 1 < k && is_far(before_ + 1, here)) ++before_;
-    while (before_ > 0 && !is_far(before_, here)) --before_;
-    after_ = std::max(after_, k);
-    while (after_ > k + 1 && is_far(after_ - 1, here)) --after_;
-    while (after_ + 1 < path_.size() && !is_far(after_, here)) ++after_;
+    find_before(k, here);
+    find_after(k, here);
     const Vector3d come =
         is_far(before_, here) ? Vector3d(here - place(before_)) : Vector3d::Zero();
     const Vector3d go = is_far(after_, here) ? Vector3d(place(after_) - here) : Vector3d::Zero();
@@ -55,6 +52,30 @@ class PathDirection {
   }
 
  private:
+  /// The last pose before k out of reach. A path that goes back where it came from leaves the reach
+  /// and comes into it again, so the search begins at k; where the vehicle stands for long it goes
+  /// on from the one that was found last.
+  void find_before(std::size_t k, const Vector3d& here) {
+    for (std::size_t i = k; i > before_ && k - i < kMostSteps;) {
+      if (!is_far(--i, here)) continue;
+      before_ = i;
+      return;
+    }
+    while (before_ > 0 && !is_far(before_, here)) --before_;
+  }
+  /// The first pose after k out of reach, in the same way.
+  void find_after(std::size_t k, const Vector3d& here) {
+    for (std::size_t i = k + 1; i < path_.size() && i - k < kMostSteps; ++i) {
+      if (!is_far(i, here)) continue;
+      after_ = i;
+      return;
+    }
+    after_ = std::max(after_, k);
+    while (after_ + 1 < path_.size() && !is_far(after_, here)) ++after_;
+  }
+
+  static constexpr std::size_t kMostSteps = 256;
+
   Vector3d place(std::size_t i) const { return path_[i].translation; }
   bool is_far(std::size_t i, const Vector3d& here) const {
     return (place(i) - here).norm() >= kReach_m;

@@ -101,13 +101,6 @@ std::string quoted(const fs::path& path) {
   return text.find_first_of(" '\"()&;") == std::string::npos ? text : "\"" + text + "\"";
 }
 
-std::size_t count_lines(const fs::path& file) {
-  files::LineReader reader(file);
-  std::size_t lines = 0;
-  while (reader.next()) ++lines;
-  return lines;
-}
-
 /// What the file would be as a reference: "108 poses, one for each scan"; nothing if it is none.
 std::optional<std::string> as_reference(const fs::path& file, std::size_t scans) {
   const std::string name = in_lower_case(file.stem().string());
@@ -116,7 +109,8 @@ std::optional<std::string> as_reference(const fs::path& file, std::size_t scans)
   if (!is_named_so) return std::nullopt;
   try {
     const TrajectoryFormat format = detect_trajectory_format(file);
-    const std::size_t poses = count_lines(file);
+    const std::size_t poses = read_trajectory(file, format).size();  // throws where it is none
+    if (poses == 0) return std::nullopt;
     if (format != TrajectoryFormat::kKitti) return fmt::format("{} poses with stamps", poses);
     if (poses != scans) return std::nullopt;
     return fmt::format("{} poses, one for each scan", poses);
