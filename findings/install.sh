@@ -40,5 +40,5 @@ report() {
 }
 
 export CPLUS_INCLUDE_PATH=$root/usr/include:$root/usr/include/eigen3:$root/usr/include/$(uname -m)-linux-gnu
-export LIBRARY_PATH=$lib LD_LIBRARY_PATH=$lib:$lib/blas:$lib/lapack:$root/usr/lib
+export LIBRARY_PATH=$lib LD_LIBRARY_PATH=$lib:$lib/blas:$lib/lapack:$root/usr/lib:$root/lib/$(uname -m)-linux-gnu
 export PYTHONPATH=$root/usr/lib/python3/dist-packages PATH=$root/usr/bin:/usr/bin:$PATH
