@@ -49,6 +49,12 @@ Recording Recording::open(const fs::path& file_or_run, const dataset::OpenOption
     recording.path_ = moved_to.empty() ? facts.recording : moved_to;
     recording.max_frames_ = facts.first_frame + facts.frames;
     add_statements(facts, recording.options_);
+    if (contents->reference) {  // whatever has become of the file that it was read from
+      auto& statements = recording.options_.statements;
+      const std::string file = fs::absolute(folder.reference()).string();
+      statements.insert(statements.begin(),
+                        {"reference.file=" + files::in_quotes(file), "reference.format=tum"});
+    }
     if (!fs::exists(recording.path_)) {
       throw files::InputError(folder.record(), files::Place::key("recording.path"),
                               "the recording of the run where it was (--moved-to says where it is "
