@@ -146,9 +146,9 @@ TEST(LidarChecks, UnitsOfLength) {
 
 TEST(LidarChecks, CoordinatesOfAMapAreNoScan) {
   for (const auto& [east, north] : {std::pair{691000.F, 5334000.F}, {4200.F, -800.F}}) {
-    const auto findings = findings_in(recording_of([&](LidarScan& s) {
-      for (float& x : s.x) x += east;
-      for (float& y : s.y) y += north;
+    const auto findings = findings_in(recording_of([x_m = east, y_m = north](LidarScan& s) {
+      for (float& x : s.x) x += x_m;
+      for (float& y : s.y) y += y_m;
     }));
     ASSERT_THAT(codes_of(findings), ElementsAre("points_far_away")) << texts_of(findings);
   }

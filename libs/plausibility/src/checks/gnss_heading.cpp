@@ -73,10 +73,10 @@ void look_at_headings(const View& view, std::vector<Finding>& findings) {
       }
       continue;
     }
-    const auto found = [&](const char* code, const HeadingAgreement& with, const char* what,
-                           std::string statement) {
+    const auto found = [&, sensor = label](const char* code, const HeadingAgreement& with,
+                                           const char* what, std::string statement) {
       findings.push_back(
-          {code, Severity::kWarn, label,
+          {code, Severity::kWarn, sensor,
            fmt::format("heading minus course agrees on {:.0f} % of {} legs; {} on {:.0f} %, and is "
                        "{:.0f} deg",
                        100 * as_read.share, as_read.legs, what, 100 * with.share, with.offset_deg),
