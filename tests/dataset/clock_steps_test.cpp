@@ -299,7 +299,8 @@ TEST(ClockSteps, AfterAnOutageASlowSensorGoesOnAtOnce) {
   }));
 }
 
-// Two sensors of one clock that pause now and then: the first to go on does not make the other late.
+// Two sensors of one clock that pause now and then: the first to go on does not make the other
+// late.
 TEST(ClockSteps, AfterAPauseOfAllSensorsNothingIsLost) {
   const TemporaryFolder folder;
   {

@@ -143,7 +143,8 @@ TEST_F(NavigationCommand, SaysWhyThereIsNoGridWithoutAFix) {
                                   " --no-report --pipeline gins-window --utm --set gnss.use=false "
                                   "--set start.gnss_wait_s=1");
   EXPECT_EQ(result.status, 1);
-  EXPECT_THAT(result.messages, HasSubstr("--utm: no GNSS fix gives the position of this trajectory on Earth"));
+  EXPECT_THAT(result.messages,
+              HasSubstr("--utm: no GNSS fix gives the position of this trajectory on Earth"));
 }
 
 TEST_F(NavigationCommand, DeadReckonsARobotWithoutGnss) {

@@ -11,7 +11,7 @@ namespace traverse::render {
 namespace {
 
 constexpr double kHalfTurn = std::numbers::pi;  // radians
-constexpr double kChordError = 0.05;  // pixels between an arc and the chord drawn for it
+constexpr double kChordError = 0.05;            // pixels between an arc and the chord drawn for it
 
 ShapeVertex vertex(Point p, Colour colour, double opacity = 1) {
   return {static_cast<float>(p.x),

@@ -61,7 +61,7 @@ class ResultWriter {
     }
     files::write_text(folder_.report(),
                       batch_page({plan_, results_, variants, baseline, tables,
-                                   find_lead(plan_, results_, variants, folder_), options_.command},
+                                  find_lead(plan_, results_, variants, folder_), options_.command},
                                  options_.templates));
     regressed_ = baseline ? count_regressions(*baseline) : 0;
     next_ = Clock::now() +

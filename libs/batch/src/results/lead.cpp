@@ -100,8 +100,8 @@ std::optional<std::pair<double, double>> interval_over_recordings(
   double squares = 0;
   for (const double difference : differences) squares += std::pow(difference - mean, 2);
   const boost::math::students_t distribution(n - 1);
-  const double half =
-      std::sqrt(squares / (n - 1) / n) * boost::math::quantile(distribution, 0.5 + kLeadConfidence / 2);
+  const double half = std::sqrt(squares / (n - 1) / n) *
+                      boost::math::quantile(distribution, 0.5 + kLeadConfidence / 2);
   return std::pair(mean - half, mean + half);
 }
 
