@@ -37,6 +37,7 @@ struct MadeRecording {
 /// The car of SimulatedVehicle with an IMU, a receiver and wheels, as a text log would hold it.
 inline MadeRecording made_drive(const SimulatedSensors& sensors = {}, double seconds = 90) {
   SimulatedVehicle car;
+  car.light_every_s = 40;  // a town: speeds change
   SimulatedDrive drive = simulate(car, sensors, seconds);
   MadeRecording recording;
   recording.info.format = "navigation log";

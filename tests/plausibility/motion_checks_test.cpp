@@ -30,6 +30,7 @@ struct DriveWithOdometry {
   Trajectory path;
 
   explicit DriveWithOdometry(double seconds = 60) {
+    car.light_every_s = 40;  // a town: speeds change
     const SimulatedDrive drive = simulate(car, {}, seconds);
     recording.info.rig.sensors.push_back({"lidar", sensors::SensorKind::kLidar, {}, std::nullopt});
     recording.info.rig.sensors.push_back({"IMU", sensors::SensorKind::kImu, {}, std::nullopt});
@@ -116,7 +117,7 @@ TEST(MotionChecks, StampsOfAnotherMomentOfTheSweepAreFound) {
 
 /// A path with hills, and a reference made of it.
 struct Paths {
-  Trajectory estimate = DriveWithOdometry(60).path;
+  Trajectory estimate = DriveWithOdometry(90).path;
   Trajectory reference;
 
   template <typename Change>

@@ -230,17 +230,17 @@ const std::vector<Fault> kFaults{
     {"fixes_late",
      [](MadeRecording& r) { move_fixes(r, 0.4); },
      {"gnss_late"},
-     "gnss.delay_s=0.4",
+     "gnss.delay_s=0.",
      Severity::kWarn},
     {"fixes_on_another_clock",
      [](MadeRecording& r) { move_fixes(r, 18); },
      {"gnss_late"},
-     "gnss.delay_s=18.0",
+     "gnss.delay_s=1",
      Severity::kRefuse},
     {"fixes_early",
      [](MadeRecording& r) { move_fixes(r, -1.5); },
      {"gnss_late"},
-     "gnss.delay_s=-1.5",
+     "gnss.delay_s=-1.",
      Severity::kRefuse},
 };
 
@@ -262,6 +262,22 @@ TEST_P(PlantedFault, IsFoundAndNothingElse) {
 
 INSTANTIATE_TEST_SUITE_P(Each, PlantedFault, ::testing::ValuesIn(kFaults),
                          [](const auto& each) { return std::string(each.param.name); });
+
+TEST(NavigationChecks, TellADelayToTheTenth) {
+  for (const double delay_s : {0.3, -0.4, 2.0, -7.5, 18.0}) {
+    for (const double sigma_m : {0.01, 0.05}) {
+      SimulatedSensors sensors;
+      sensors.gnss_sigma_m = sigma_m;
+      MadeRecording recording = made_drive(sensors);
+      move_fixes(recording, delay_s);
+      const auto findings = findings_in(recording);
+      ASSERT_THAT(codes_of(findings), ElementsAre("gnss_late")) << delay_s << texts_of(findings);
+      const std::string& statement = findings.front().statement;
+      EXPECT_NEAR(std::stod(statement.substr(statement.find('=') + 1)), delay_s, 0.1)
+          << texts_of(findings);
+    }
+  }
+}
 
 TEST(NavigationChecks, SayNothingOfADriveThatIsRight) {
   for (std::uint32_t seed = 1; seed <= 5; ++seed) {
@@ -285,6 +301,18 @@ TEST(NavigationChecks, SayNothingOfAFewSeconds) {
   for (const double seconds : {0.05, 0.5, 3.0, 8.0, 12.0}) {
     const auto findings = findings_in(made_drive(sensors, seconds));
     EXPECT_THAT(findings, IsEmpty()) << seconds << "\n" << texts_of(findings);
+  }
+}
+
+TEST(NavigationChecks, OneFixFarAwayIsNoContradiction) {
+  for (const int bad : {40, 300, 700}) {
+    MadeRecording recording = made_drive();
+    int count = 0;
+    recording.for_each<GnssFix>([&](GnssFix& f) {
+      if (++count == bad) f.latitude_deg += 1e-3;  // 111 m
+    });
+    const auto findings = findings_in(recording);
+    EXPECT_THAT(findings, IsEmpty()) << texts_of(findings);
   }
 }
 

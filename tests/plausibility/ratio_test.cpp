@@ -36,6 +36,14 @@ TEST(Ratio, SaysNothingOfNothing) {
   EXPECT_DOUBLE_EQ(ratio.find(1, 1)->value, 5);
 }
 
+TEST(Ratio, OneHugePairDoesNotOutweighTheOthers) {
+  Ratio ratio;
+  for (int i = 0; i < 30; ++i) ratio.add(1, 2);
+  ratio.add(100, 1);
+  ratio.add(-90, 1);
+  EXPECT_DOUBLE_EQ(ratio.find(5, 1)->value, 2);
+}
+
 TEST(Ratio, WithoutAFactorInCommonIsNotConsistent) {
   std::mt19937 generator(3);
   std::normal_distribution<double> normal;

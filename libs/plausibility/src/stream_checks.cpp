@@ -29,6 +29,11 @@ void StreamChecks::take_pose(geometry::Stamp stamp, const geometry::Pose3& T_map
   parts_->evidence.take_pose(stamp, T_map_body);
 }
 
+void StreamChecks::forget_poses() {
+  parts_->evidence.odometry = {};
+  parts_->evidence.distortion = {};
+}
+
 std::vector<Finding> StreamChecks::findings() const {
   std::vector<Finding> findings;
   const View view(parts_->evidence);

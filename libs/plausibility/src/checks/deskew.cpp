@@ -32,27 +32,23 @@ constexpr std::array<CodeMeaning, 4> kDeskewCodes{{
 struct Share {
   double value = 0;
   double sigma = 0;  // of the median, from the spread of the pairs and what they say of themselves
-  double rms_m = 0;
   std::size_t pairs = 0;
 };
 
-std::optional<Share> share_of(const DistortionTrack& track, TimeModel model) {
+std::optional<Share> share_of(const DistortionTrack& track, std::optional<double> seam_deg) {
   constexpr std::size_t kMinPairs = 3;
   constexpr double kMaxSigma = 0.6;  // else a pair tells nothing
   std::vector<double> shares;
   std::vector<double> sigmas;
-  std::vector<double> rms;
   for (const DistortionTrack::Pair& pair : track.pairs()) {
-    if (pair.model != model || pair.distortion.sigma > kMaxSigma) continue;
+    if (pair.seam_deg != seam_deg || pair.distortion.sigma > kMaxSigma) continue;
     shares.push_back(pair.distortion.share);
     sigmas.push_back(pair.distortion.sigma);
-    rms.push_back(pair.distortion.rms_m);
   }
   if (shares.size() < kMinPairs) return std::nullopt;
   Share share;
   share.pairs = shares.size();
   share.value = statistics::median(shares);
-  share.rms_m = statistics::median(rms);
   std::vector<double> deviations;
   for (const double s : shares) deviations.push_back(std::abs(s - share.value));
   const double spread = 1.4826 * statistics::median(deviations);
@@ -61,10 +57,10 @@ std::optional<Share> share_of(const DistortionTrack& track, TimeModel model) {
   return share;
 }
 
-/// Whether the share is `expected` rather than what lies one away, by four sigma.
-bool is_share(const Share& share, double expected) {
-  return std::abs(share.value - expected) + 4 * share.sigma < 0.5;
-}
+// The nearest of 1, 0 and -1, by three sigma.
+bool is_raw(const Share& share) { return share.value - 3 * share.sigma > 0.5; }
+bool is_compensated(const Share& share) { return std::abs(share.value) + 3 * share.sigma < 0.5; }
+bool is_reversed(const Share& share) { return share.value + 3 * share.sigma < -0.5; }
 
 void look_at_deskew(const View& view, std::vector<Finding>& findings) {
   const Evidence& evidence = view.evidence;
@@ -76,19 +72,19 @@ void look_at_deskew(const View& view, std::vector<Finding>& findings) {
         "pairs of scans)",
         share.value, share.sigma, share.pairs);
   };
-  if (const auto share = share_of(evidence.distortion, TimeModel::kKnown)) {
-    const bool is_compensated = evidence.recording.motion_compensated;
-    if (is_compensated && is_share(*share, 1)) {
+  if (const auto share = share_of(evidence.distortion, std::nullopt)) {
+    const bool are_stated = evidence.recording.motion_compensated;
+    if (are_stated && is_raw(*share)) {
       findings.push_back({"scans_not_compensated", Severity::kWarn, lidar->label,
                           figure(*share) + "; 0 expected of compensated scans",
                           "The scans are raw: without deskew, maps blur and drift grows with speed",
                           "--recording motion_compensated=false"});
-    } else if (!is_compensated && is_share(*share, 0)) {
+    } else if (!are_stated && is_compensated(*share)) {
       findings.push_back({"scans_compensated", Severity::kWarn, lidar->label,
                           figure(*share) + "; 1 expected of raw scans",
                           "The scans were deskewed before: doing it again distorts them",
                           "--recording motion_compensated=true"});
-    } else if (!is_compensated && is_share(*share, -1)) {
+    } else if (!are_stated && is_reversed(*share)) {
       findings.push_back({"point_times_reversed", Severity::kWarn, lidar->label,
                           figure(*share) + "; 1 expected of raw scans",
                           "Deskew doubles the distortion instead of taking it off",
@@ -103,22 +99,30 @@ void look_at_deskew(const View& view, std::vector<Finding>& findings) {
     return;
   }
   if (evidence.recording.motion_compensated) return;
-  const auto clockwise = share_of(evidence.distortion, TimeModel::kClockwise);
-  const auto counterclockwise = share_of(evidence.distortion, TimeModel::kCounterclockwise);
-  for (const auto& [share, name] :
-       {std::pair{clockwise, "clockwise"}, {counterclockwise, "counterclockwise"}}) {
-    if (!share || !is_share(*share, 1)) continue;
-    findings.push_back(
-        {"point_times_unknown", Severity::kWarn, lidar->label,
-         fmt::format("{}, if the lidar turns {}; nothing tells when a point was measured",
-                     figure(*share), name),
-         "The scans are raw, and are not deskewed: maps blur and drift grows with speed",
-         fmt::format(
-             "--recording lidar.time_source=azimuth --recording lidar.rotation={} --recording "
-             "lidar.seam_azimuth_deg={:.0f} --recording lidar.sweep_s={:.3g}",
-             name, evidence.distortion.seam_deg(), evidence.distortion.sweep_s())});
-    break;
+  std::optional<Share> best;
+  double best_seam_deg = 0;
+  for (const double seam_deg : DistortionTrack::kSeams_deg) {
+    const auto share = share_of(evidence.distortion, seam_deg);
+    // At a wrong seam the times say nothing, and the share is small.
+    if (!share || !(is_raw(*share) || is_reversed(*share))) continue;
+    const auto certainty = [](const Share& s) { return std::abs(s.value) - 3 * s.sigma; };
+    if (best && certainty(*share) < certainty(*best)) continue;
+    best = share;
+    best_seam_deg = seam_deg;
   }
+  if (!best) return;
+  const char* rotation = is_raw(*best) ? "clockwise" : "counterclockwise";
+  best->value = std::abs(best->value);
+  findings.push_back(
+      {"point_times_unknown", Severity::kWarn, lidar->label,
+       fmt::format("{}, if the lidar turns {} from {:.0f} deg on; nothing tells when a point was "
+                   "measured",
+                   figure(*best), rotation, best_seam_deg),
+       "The scans are raw, and are not deskewed: maps blur and drift grows with speed",
+       fmt::format(
+           "--recording lidar.time_source=azimuth --recording lidar.rotation={} --recording "
+           "lidar.seam_azimuth_deg={:.0f} --recording lidar.sweep_s={:.3g}",
+           rotation, best_seam_deg, evidence.distortion.sweep_s())});
 }
 
 }  // namespace

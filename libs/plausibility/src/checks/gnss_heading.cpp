@@ -56,7 +56,7 @@ void look_at_headings(const View& view, std::vector<Finding>& findings) {
   const Evidence& evidence = view.evidence;
   constexpr std::size_t kMinLegs = 8;
   for (const auto& [label, track] : evidence.receivers) {
-    const Legs& legs = view.receivers.at(label).legs;
+    const Legs& legs = view.receivers.at(label).stamped;
     const HeadingAgreement as_read = heading_agreement(track, legs, 1, 1);
     if (as_read.legs < kMinLegs) continue;
     const Eigen::Matrix3d R = evidence.R_body(label);

@@ -34,10 +34,7 @@ void look_at_lidar_time(const View& view, std::vector<Finding>& findings) {
   for (const auto& [label, track] : evidence.imus) {
     if (track.turn().empty()) continue;
     const MotionSource gyro = gyro_turn(evidence, label);
-    auto delay = find_delay(pieces, gyro, 1, kReach_s);
-    // First where it is likely: a coarse search of seconds steps over a sweep.
-    const auto near = find_delay(pieces, gyro, 1, 0.5);
-    if (near && (!delay || near->there.mean < delay->there.mean)) delay = near;
+    const auto delay = find_delay(pieces, gyro, kReach_s);
     if (!delay || !delay->is_marked(kMinDelay_s)) continue;
     findings.push_back(
         {"lidar_late", Severity::kWarn, lidar != nullptr ? lidar->label : "",

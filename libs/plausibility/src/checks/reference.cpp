@@ -151,23 +151,11 @@ std::optional<Delay> reference_delay(const Accumulated<1>& estimate,
                               return amount ? std::optional((*amount)[0]) : std::nullopt;
                             }};
   std::vector<TimedPiece> pieces;
-  double sum = 0;
-  double told_sum = 0;
   for (double t = reference.begin_s(); t + kPiece_s <= reference.end_s(); t += kPiece_s) {
     const auto amount = reference.between(t, t + kPiece_s);
-    if (!amount) continue;
-    pieces.push_back({t, t + kPiece_s, (*amount)[0]});
-    if (const auto other = source.between(t, t + kPiece_s)) {
-      sum += *other;
-      told_sum += (*amount)[0];
-    }
+    if (amount) pieces.push_back({t, t + kPiece_s, (*amount)[0]});
   }
-  if (!(sum > 0)) return std::nullopt;
-  auto delay = find_delay(pieces, source, told_sum / sum, kFarthest_s);
-  // A coarse search steps over what is near.
-  const auto near = find_delay(std::move(pieces), source, told_sum / sum, 1);
-  if (near && (!delay || near->there.mean < delay->there.mean)) delay = near;
-  return delay;
+  return find_delay(pieces, source, kFarthest_s);
 }
 
 std::optional<Finding> look_at_clock(const Trajectory& estimate, const Trajectory& reference) {

@@ -17,7 +17,7 @@ struct TimedPiece {
 
 /// How far two streams are apart.
 struct Misfit {
-  double mean = 0;  ///< of |difference|, but for what all have in common, as a share of |value|
+  double mean = 0;  ///< of |difference| after the best scale and bias, as a share of |value|
   std::size_t pieces = 0;
 };
 
@@ -28,15 +28,14 @@ struct Delay {
   Misfit at_zero;
   double gain_sigmas = 0;  ///< by which they agree better there, piece by piece
 
-  /// They agree better there by three tenths and by four standard errors, and it is farther away
-  /// than `min_s`.
+  /// They agree better there by three tenths and by four standard errors, or by three quarters and
+  /// two standard errors, and it is farther away than `min_s`.
   bool is_marked(double min_s) const;
 };
 
 /// \param reach_s how far to look; no farther than a quarter of what there is
-/// \param other times `scale` is what the pieces should be
 /// \returns nothing with fewer than twenty pieces that can be compared at any of the delays
-std::optional<Delay> find_delay(std::vector<TimedPiece> pieces, const MotionSource& other,
-                                double scale, double reach_s);
+std::optional<Delay> find_delay(const std::vector<TimedPiece>& pieces, const MotionSource& other,
+                                double reach_s);
 
 }  // namespace traverse::plausibility

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -105,20 +104,21 @@ struct Row {
   double residual;
 };
 
-}  // namespace
-
-std::optional<Distortion> fit_distortion(const TimedScan& a, const TimedScan& b) {
-  constexpr int kIterations = 8;
+std::optional<Distortion> fit_from(const PlaneGrid& planes, const TimedScan& a, const TimedScan& b,
+                                   double share) {
+  constexpr int kIterations = 12;
   constexpr std::size_t kMinMatches = 150;
   constexpr double kSmallestScale_m = 0.02;  // noise of a range
-  const PlaneGrid planes(a);
+  constexpr double kOnPlane_m = 0.1;
   geometry::Pose3 T_a_b = a.T_map_lidar.inverse() * b.T_map_lidar;
   Distortion result;
+  result.share = share;
   std::vector<Row> rows;
   std::vector<double> sizes;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     rows.clear();
     sizes.clear();
+    result.score = 0;
     for (std::size_t i = 0; i < b.points.size(); ++i) {
       const Eigen::Vector3d p_b = b.points[i].cast<double>();
       const Eigen::Vector3d step_b = motion(b.velocity, p_b, b.times[i]);
@@ -134,9 +134,12 @@ std::optional<Distortion> fit_distortion(const TimedScan& a, const TimedScan& b)
       row.residual = residual;
       rows.push_back(row);
       sizes.push_back(std::abs(residual));
+      const double off = residual / kOnPlane_m;
+      if (std::abs(off) < 1) result.score += (1 - off * off) * (1 - off * off);
     }
     if (rows.size() < kMinMatches) return std::nullopt;
-    const double scale = std::max(kSmallestScale_m, 1.4826 * statistics::median(sizes));
+    const double scale =
+        std::max(kSmallestScale_m, 1.4826 * statistics::element_at_share(sizes, 0.5));
     const double reach = 4.685 * scale;
     Eigen::Matrix<double, 7, 7> H = Eigen::Matrix<double, 7, 7>::Zero();
     Eigen::Matrix<double, 7, 1> g = Eigen::Matrix<double, 7, 1>::Zero();
@@ -147,28 +150,39 @@ std::optional<Distortion> fit_distortion(const TimedScan& a, const TimedScan& b)
       if (std::abs(u) >= 1) continue;
       const double weight = (1 - u * u) * (1 - u * u);
       H += weight * row.slope * row.slope.transpose();
-      g += weight * row.slope * row.residual;
+      g += weight * row.residual * row.slope;
       sum += weight * row.residual * row.residual;
       weights += weight;
     }
     const Eigen::LDLT<Eigen::Matrix<double, 7, 7>> solver(H);
     if (solver.info() != Eigen::Success || !(solver.rcond() > 1e-10)) return std::nullopt;
     const Eigen::Matrix<double, 7, 1> step = -solver.solve(g);
-    T_a_b.rotation = geometry::exp_so3(step.head<3>()) * T_a_b.rotation;
-    T_a_b.translation = geometry::exp_so3(step.head<3>()) * T_a_b.translation + step.segment<3>(3);
+    const Eigen::Matrix3d turn = geometry::exp_so3(step.head<3>());
+    T_a_b.rotation = turn * T_a_b.rotation;
+    T_a_b.translation = turn * T_a_b.translation + step.segment<3>(3);
     result.share += step[6];
-    result.matches = rows.size();
     result.rms_m = std::sqrt(sum / weights);
-    const Eigen::Matrix<double, 7, 7> inverse =
-        solver.solve(Eigen::Matrix<double, 7, 7>::Identity());
-    // Residuals of one plane have the error of the plane in common: count planes rather than
-    // points.
+    // Residuals of one plane have the error of the plane in common: planes count, not points.
     constexpr double kPointsOfAPlane = 8;
-    result.sigma = std::sqrt(kPointsOfAPlane * inverse(6, 6)) * std::max(result.rms_m, 0.01);
-    if (step.head<6>().norm() < 1e-4 && std::abs(step[6]) < 1e-3) break;
+    const Eigen::Matrix<double, 7, 1> of_share = solver.solve(Eigen::Matrix<double, 7, 1>::Unit(6));
+    result.sigma = std::sqrt(kPointsOfAPlane * of_share[6]) * std::max(result.rms_m, 0.01);
+    if (step.head<6>().norm() < 1e-3 && std::abs(step[6]) < 1e-2) break;
   }
   if (!std::isfinite(result.share) || !std::isfinite(result.sigma)) return std::nullopt;
   return result;
+}
+
+}  // namespace
+
+std::optional<Distortion> fit_distortion(const TimedScan& a, const TimedScan& b) {
+  const PlaneGrid planes(a);
+  std::optional<Distortion> best;
+  // What is matched wrongly at a wrong share holds it there.
+  for (const double share : {0.0, 1.0, -1.0}) {
+    const auto fit = fit_from(planes, a, b, share);
+    if (fit && (!best || fit->score > best->score)) best = fit;
+  }
+  return best;
 }
 
 }  // namespace traverse::plausibility

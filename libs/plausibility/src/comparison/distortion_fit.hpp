@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -24,7 +23,7 @@ struct Distortion {
       0;  ///< 1: all of it, they are raw; 0: none, they are compensated; -1: times run back
   double sigma = 0;  ///< standard deviation of the share
   double rms_m = 0;  ///< distances that are left
-  std::size_t matches = 0;
+  double score = 0;  ///< how many points it brings onto planes, each by how near it is
 };
 
 /// Points of `b` on planes of `a`, for the rigid motion between them and the share s at once: raw

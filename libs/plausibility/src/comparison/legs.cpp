@@ -37,16 +37,17 @@ struct Point {
 };
 
 /// On the plane about the first fix: legs are short, and a sphere is good to half a percent.
-std::vector<Point> points_of(const GnssTrack& track, PlaceReading reading) {
+std::vector<Point> points_of(const GnssTrack& track, PlaceReading reading, double delay_s) {
   std::vector<Point> points;
   std::optional<Eigen::Vector2d> first;
   for (const TimedFix& fix : track.fixes()) {
     const auto place = place_of(fix, reading);
     if (!place) continue;
     if (!first) first = place;
-    points.push_back({fix.t, kEarthRadius_m * Eigen::Vector2d(std::cos(first->x()) *
-                                                                  wrapped(place->y() - first->y()),
-                                                              place->x() - first->x())});
+    points.push_back(
+        {fix.t - delay_s,
+         kEarthRadius_m * Eigen::Vector2d(std::cos(first->x()) * wrapped(place->y() - first->y()),
+                                          place->x() - first->x())});
   }
   return points;
 }
@@ -72,11 +73,11 @@ double wrapped(double angle) {
   return angle - 2 * std::numbers::pi * std::round(angle / (2 * std::numbers::pi));
 }
 
-Legs legs_of(const GnssTrack& track, PlaceReading reading) {
+Legs legs_of(const GnssTrack& track, PlaceReading reading, double delay_s) {
   constexpr double kMinLength_m = 2;
   constexpr double kMinSigmas = 25;
   constexpr double kMaxTime_s = 10;
-  const std::vector<Point> points = points_of(track, reading);
+  const std::vector<Point> points = points_of(track, reading, delay_s);
   Legs result;
   result.sigma_m = noise_of(points);
   const double length_m = std::max(kMinLength_m, kMinSigmas * result.sigma_m);

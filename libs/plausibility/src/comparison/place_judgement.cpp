@@ -68,16 +68,17 @@ bool is_within(double value, double expected, double factor) {
   return value / expected > 1 / factor && value / expected < factor;
 }
 
-std::optional<PlaceJudgement> judge_radians(const Evidence& evidence, const GnssTrack& track) {
+std::optional<PlaceJudgement> judge_radians(const Evidence& evidence, const GnssTrack& track,
+                                            double delay_s) {
   // Places in radians read as degrees lie in the Gulf of Guinea, within 180 km of the equator.
   constexpr double kNoPlace = 0.02;  // simulators begin at 0, 0
   for (const TimedFix& fix : track.fixes()) {
     if (std::abs(fix.latitude) > M_PI / 2 || std::abs(fix.longitude) > M_PI) return std::nullopt;
     if (std::hypot(fix.latitude, fix.longitude) < kNoPlace) return std::nullopt;
   }
-  const auto as_read = length_fit(evidence, legs_of(track, PlaceReading::kAsRead));
+  const auto as_read = length_fit(evidence, legs_of(track, PlaceReading::kAsRead, delay_s));
   if (as_read && is_within(as_read->ratio.value, 1, 3)) return std::nullopt;
-  const auto fit = length_fit(evidence, legs_of(track, PlaceReading::kRadians));
+  const auto fit = length_fit(evidence, legs_of(track, PlaceReading::kRadians, delay_s));
   if (fit && !is_within(fit->ratio.value, 1, 2)) return std::nullopt;
   const TimedFix& first = track.fixes().front();
   std::string figure =
@@ -90,16 +91,17 @@ std::optional<PlaceJudgement> judge_radians(const Evidence& evidence, const Gnss
   return PlaceJudgement{PlaceReading::kRadians, std::move(figure), fit.has_value()};
 }
 
-std::optional<PlaceJudgement> judge_minutes(const Evidence& evidence, const GnssTrack& track) {
+std::optional<PlaceJudgement> judge_minutes(const Evidence& evidence, const GnssTrack& track,
+                                            double delay_s) {
   const auto is_minutes = [](double value) {
     return std::abs(value) - std::floor(std::abs(value)) < 0.6;
   };
   for (const TimedFix& fix : track.fixes()) {
     if (!is_minutes(fix.latitude) || !is_minutes(fix.longitude)) return std::nullopt;
   }
-  const auto as_read = length_fit(evidence, legs_of(track, PlaceReading::kAsRead));
+  const auto as_read = length_fit(evidence, legs_of(track, PlaceReading::kAsRead, delay_s));
   if (!as_read || !is_within(as_read->ratio.value, 100.0 / 60, 1.1)) return std::nullopt;
-  const auto fit = length_fit(evidence, legs_of(track, PlaceReading::kDegreesMinutes));
+  const auto fit = length_fit(evidence, legs_of(track, PlaceReading::kDegreesMinutes, delay_s));
   if (!fit || !is_within(fit->ratio.value, 1, 1.1)) return std::nullopt;
   return PlaceJudgement{
       PlaceReading::kDegreesMinutes,
@@ -109,9 +111,10 @@ std::optional<PlaceJudgement> judge_minutes(const Evidence& evidence, const Gnss
       true};
 }
 
-std::optional<PlaceJudgement> judge_swapped(const Evidence& evidence, const GnssTrack& track) {
-  const Legs as_read = legs_of(track, PlaceReading::kAsRead);
-  const Legs swapped = legs_of(track, PlaceReading::kSwapped);
+std::optional<PlaceJudgement> judge_swapped(const Evidence& evidence, const GnssTrack& track,
+                                            double delay_s) {
+  const Legs as_read = legs_of(track, PlaceReading::kAsRead, delay_s);
+  const Legs swapped = legs_of(track, PlaceReading::kSwapped, delay_s);
   if (swapped.legs.size() < kMinLegsCompared) return std::nullopt;
   // A map with east and north exchanged is its own mirror image: it turns the other way. Its metres
   // are off by the cosines of two latitudes, one way along the equator and not at all across.
@@ -136,8 +139,9 @@ std::optional<PlaceJudgement> judge_swapped(const Evidence& evidence, const Gnss
         1 / swapped_lengths->ratio.value);
     return PlaceJudgement{PlaceReading::kSwapped, std::move(figure), true};
   }
-  const auto heading = heading_agreement(track, as_read, 1, 1);
-  const auto swapped_heading = heading_agreement(track, swapped, 1, 1);
+  const auto heading = heading_agreement(track, legs_of(track, PlaceReading::kAsRead, 0), 1, 1);
+  const auto swapped_heading =
+      heading_agreement(track, legs_of(track, PlaceReading::kSwapped, 0), 1, 1);
   if (heading.share < 0.4 && swapped_heading.share > 0.6) {
     figure += "; with latitude and longitude exchanged it agrees, and with the headings too";
     return PlaceJudgement{PlaceReading::kSwapped, std::move(figure), true};
@@ -147,11 +151,11 @@ std::optional<PlaceJudgement> judge_swapped(const Evidence& evidence, const Gnss
 
 }  // namespace
 
-PlaceJudgement judge_places(const Evidence& evidence, const GnssTrack& track) {
+PlaceJudgement judge_places(const Evidence& evidence, const GnssTrack& track, double delay_s) {
   if (track.fixes().size() < kMinLegsCompared) return {};
-  if (auto radians = judge_radians(evidence, track)) return *radians;
-  if (auto minutes = judge_minutes(evidence, track)) return *minutes;
-  if (auto swapped = judge_swapped(evidence, track)) return *swapped;
+  if (auto radians = judge_radians(evidence, track, delay_s)) return *radians;
+  if (auto minutes = judge_minutes(evidence, track, delay_s)) return *minutes;
+  if (auto swapped = judge_swapped(evidence, track, delay_s)) return *swapped;
   return {};
 }
 

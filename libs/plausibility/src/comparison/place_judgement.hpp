@@ -14,7 +14,8 @@ struct PlaceJudgement {
   bool is_certain = true;  ///< false: there is no other stream to tell it by
 };
 
-PlaceJudgement judge_places(const Evidence& evidence, const GnssTrack& track);
+/// \param delay_s by which fixes are late
+PlaceJudgement judge_places(const Evidence& evidence, const GnssTrack& track, double delay_s);
 
 /// What share of legs has a direction that goes with the heading of the fixes.
 struct HeadingAgreement {
@@ -24,6 +25,7 @@ struct HeadingAgreement {
   std::size_t legs = 0;   ///< that have a heading
 };
 
+/// \param legs at the times of the fixes
 /// \param sense 1 of a heading that grows clockwise, -1 counterclockwise
 /// \param unit_deg of the heading: 1, or 57.3 for radians
 HeadingAgreement heading_agreement(const GnssTrack& track, const Legs& legs, double sense,

@@ -33,6 +33,8 @@ class Ratio {
     double ratio;
     double weight;
   };
+  static double weighted_median(std::vector<Pair> pairs, double weight);
+
   std::vector<Pair> pairs_;
 };
 

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kMaxCompared = 12;
 constexpr std::size_t kMaxWaiting = 16;
 constexpr std::size_t kPointsOfPlanes = 30'000;
-constexpr std::size_t kPointsOnThem = 8'000;
+constexpr std::size_t kPointsOnThem = 5'000;
 
 }  // namespace
 
@@ -35,16 +35,24 @@ void DistortionTrack::take_pose(geometry::Stamp stamp, const geometry::Pose3& T_
   if (lidar == nullptr || !lidar->lidar) return;
   now.T_map_lidar = T_map_body * lidar->T_body_sensor;
   if (last_) {
+    // A vehicle pitches within a few sweeps: the motion of a scan is that between its neighbours.
+    constexpr double kLongestInterval_s = 0.25;
+    const double before_s = interval_s_;
     interval_s_ = sensors::scan_interval(last_->stamp, stamp, *lidar->lidar);
-    const geometry::Pose3 step = last_->T_map_lidar.inverse() * now.T_map_lidar;
-    if (interval_s_ > 0) now.velocity = geometry::log_se3(step) / interval_s_;
+    const bool is_steady = interval_s_ > 0 && interval_s_ < kLongestInterval_s &&
+                           std::abs(interval_s_ - before_s) < 0.5 * interval_s_;
+    if (is_steady && last_but_one_) {
+      const geometry::Pose3 step = last_but_one_->inverse() * now.T_map_lidar;
+      last_->velocity = geometry::log_se3(step) / (before_s + interval_s_);
+      if (is_fast(*last_)) pair_up(*last_, *lidar->lidar);
+    }
+    last_but_one_ = last_->T_map_lidar;
   }
   last_ = now;
-  last_->scan.reset();
-  if (is_fast(now)) pair_up(now, *lidar->lidar);
   if (compared_ < kMaxCompared) return;
   stops_.clear();
   waiting_.clear();
+  last_.reset();
 }
 
 /// A scan every two metres is kept; each is compared with the first that is five behind it, so that
@@ -62,7 +70,6 @@ void DistortionTrack::pair_up(const PosedScan& now, const sensors::LidarProfile&
   while (stops_.size() > 1 && is_apart(stops_[1], 5, 25 * geometry::kDegree)) stops_.pop_front();
   if (!stops_.empty() && is_apart(stops_.front(), 5, 25 * geometry::kDegree)) {
     compare(stops_.front(), now, profile);
-    ++compared_;
   }
   stops_.push_back(now);
 }
@@ -80,29 +87,27 @@ void DistortionTrack::compare(const PosedScan& a, const PosedScan& b,
                               const sensors::LidarProfile& profile) {
   const bool is_known = sensors::PointClock(*a.scan, profile).knows() &&
                         sensors::PointClock(*b.scan, profile).knows();
-  std::vector<TimeModel> models{TimeModel::kKnown};
-  if (!is_known) models = {TimeModel::kClockwise, TimeModel::kCounterclockwise};
-  for (const TimeModel model : models) {
-    const auto distortion = fit_distortion(timed(a, profile, model, kPointsOfPlanes),
-                                           timed(b, profile, model, kPointsOnThem));
-    if (distortion) pairs_.push_back({model, *distortion});
+  std::vector<std::optional<double>> seams_deg{std::nullopt};
+  if (!is_known) seams_deg.assign(kSeams_deg.begin(), kSeams_deg.end());
+  for (const std::optional<double>& seam_deg : seams_deg) {
+    const auto distortion = fit_distortion(timed(a, profile, seam_deg, kPointsOfPlanes),
+                                           timed(b, profile, seam_deg, kPointsOnThem));
+    if (distortion) pairs_.push_back({seam_deg, *distortion});
   }
-  if (!is_known && a.scan->size() > 0) {
-    seam_deg_ = std::atan2(a.scan->y[0], a.scan->x[0]) / geometry::kDegree;
-  }
+  // Four times the work on a pair leaves half as many pairs.
+  compared_ += is_known ? 1 : 2;
 }
 
 TimedScan DistortionTrack::timed(const PosedScan& scan, const sensors::LidarProfile& profile,
-                                 TimeModel model, std::size_t points) const {
+                                 std::optional<double> seam_deg, std::size_t points) const {
   constexpr double kNearest_m = 2;  // the vehicle itself moves along
   constexpr double kFarthest_m = 60;
   sensors::LidarProfile used = profile;
-  if (model != TimeModel::kKnown) {
+  if (seam_deg) {
     used.time_source = sensors::TimeSource::kAzimuth;
     used.sweep_s = interval_s_;
-    used.rotation = model == TimeModel::kClockwise ? sensors::Rotation::kClockwise
-                                                   : sensors::Rotation::kCounterclockwise;
-    used.seam_azimuth_deg = std::atan2(scan.scan->y[0], scan.scan->x[0]) / geometry::kDegree;
+    used.rotation = sensors::Rotation::kClockwise;
+    used.seam_azimuth_deg = *seam_deg;
     used.stamp_fraction = 0.5;
   }
   const sensors::PointClock clock(*scan.scan, used);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -15,13 +16,6 @@
 
 namespace traverse::plausibility {
 
-/// How the times of a scan's points are told.
-enum class TimeModel {
-  kKnown,             ///< as the recording and the lidar's profile tell
-  kClockwise,         ///< by the azimuth, where nothing tells: one turn from one scan to the next,
-  kCounterclockwise,  ///< from the azimuth of the first point on
-};
-
 /// The distortion of pairs of scans a few metres apart, of the first that moved fast enough to
 /// tell. Of a scan a few thousand points are looked at; pairs are few, so that all of it costs what
 /// two or three scans take to be estimated.
@@ -30,15 +24,17 @@ class DistortionTrack {
   void take(const std::shared_ptr<const sensors::LidarScan>& scan);
   void take_pose(geometry::Stamp stamp, const geometry::Pose3& T_map_body, const sensors::Rig& rig);
 
+  /// Where nothing tells the times of points: by the azimuth, for a lidar that turns clockwise once
+  /// from one scan to the next, from a seam on that is one of four. One that turns the other way
+  /// has the same with the other sign.
   struct Pair {
-    TimeModel model = TimeModel::kKnown;
+    std::optional<double> seam_deg;  ///< nothing: times are as the recording tells
     Distortion distortion;
   };
   const std::vector<Pair>& pairs() const { return pairs_; }
-  double seam_deg() const {
-    return seam_deg_;
-  }  ///< of a scan's first point, where times are unknown
   double sweep_s() const { return interval_s_; }
+
+  static constexpr std::array<double, 4> kSeams_deg{180, 0, 90, -90};
 
  private:
   struct PosedScan {
@@ -49,17 +45,17 @@ class DistortionTrack {
   };
   void pair_up(const PosedScan& now, const sensors::LidarProfile& profile);
   void compare(const PosedScan& a, const PosedScan& b, const sensors::LidarProfile& profile);
-  TimedScan timed(const PosedScan& scan, const sensors::LidarProfile& profile, TimeModel model,
-                  std::size_t points) const;
+  TimedScan timed(const PosedScan& scan, const sensors::LidarProfile& profile,
+                  std::optional<double> seam_deg, std::size_t points) const;
   bool is_fast(const PosedScan& scan) const;
 
   std::deque<std::shared_ptr<const sensors::LidarScan>> waiting_;  ///< for their poses
-  std::optional<PosedScan> last_;
+  std::optional<PosedScan> last_;  ///< whose velocity the next one tells
+  std::optional<geometry::Pose3> last_but_one_;
   std::deque<PosedScan> stops_;  ///< to be compared with
   std::vector<Pair> pairs_;
   std::size_t compared_ = 0;
   double interval_s_ = 0;
-  double seam_deg_ = 0;
 };
 
 }  // namespace traverse::plausibility

@@ -31,6 +31,9 @@ class StreamChecks {
   /// motion is held against it.
   void take_pose(geometry::Stamp stamp, const geometry::Pose3& T_map_body);
 
+  /// Takes the poses back: of an odometry that was lost nothing can be held against anything.
+  void forget_poses();
+
   /// What contradicts what, so far; what is told with `accept` in the recording's statements is
   /// marked.
   std::vector<Finding> findings() const;
