@@ -1,10 +1,15 @@
 #include "end_to_end/cases.hpp"
 
 #include <cctype>
+#include <chrono>
+#include <csignal>
 #include <cstddef>
+#include <cstdlib>
 #include <filesystem>
 #include <ostream>
 #include <string>
+#include <system_error>
+#include <thread>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -12,8 +17,10 @@
 
 #include "traverse/evaluation/json.hpp"
 #include "traverse/files/json_document.hpp"
+#include "traverse/files/text_file.hpp"
 
 #include "end_to_end/program.hpp"
+#include "end_to_end/program_process.hpp"
 #include "temporary_folder.hpp"
 
 /// Small inputs that went wrong for users (a README in each says what is right), run by the whole
@@ -49,6 +56,7 @@ struct Case {
 
 void PrintTo(const Case& row, std::ostream* out) { *out << row.folder << ": " << row.arguments; }
 
+const std::string kWindow = "--pipeline gins-window";
 constexpr const char* kNavigation = "run log.txt --pipeline gins-window --reference truth.tum";
 
 std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
@@ -88,9 +96,18 @@ const std::vector<Case>& rows() {
       {"locks_offgrid", "run . --reference truth.tum", kOk | kDegraded, 0.05},
       {"scan_end_stamps_relative", "run . --reference truth.tum", kOk | kNotOk, 0.05},
       {"stamp_jitter_20ms", "run . --reference truth.tum", kOk | kNotOk, 0.1},
+      {"straight_reference_no_evaluation",
+       "run . --reference truth.tum",
+       kOk,
+       0.05,
+       {"rotation about the line of the alignment not determined", "closing error"}},
       {"time_field_offset_time", "run . --reference truth.tum", kOk | kNotOk, 0.015},
       {"time_field_scalar_timestamp", "run . --reference truth.tum", kOk | kNotOk, 0.015},
       {"time_fields_sec_nsec", "run . --reference truth.tum", kOk | kNotOk, 0.015},
+      {"time_ms_double", "run . --reference truth.tum", kOk, 0.015},
+      {"time_ms_float", "run . --reference truth.tum", kOk, 0.015},
+      {"time_ms_uint16", "run . --reference truth.tum", kOk, 0.015},
+      {"time_us_uint32", "run . --reference truth.tum", kOk, 0.015},
       {"time_one_scan_all_equal", "run . --reference truth.tum", kOk | kNotOk, 0.03},
       {"vertical_lidar_moving_start", "run . --reference truth.tum", kOk | kNotOk, 0.05},
       {"zero_registered_bin5_columns", "run .", kLost | kRefused},
@@ -99,6 +116,16 @@ const std::vector<Case>& rows() {
       {"zero_registered_random_tenth", "run . --reference truth.tum", kOk | kLost, 0.05},
       {"zero_registered_sparse_8x120", "run .", kLost | kRefused},
       {"zero_registered_zero_returns", "run . --reference truth.tum", kOk | kLost, 0.03},
+      {"gins",
+       "run cumulative_pulses_not_told.txt --recording-config vehicle.yaml " + kWindow,
+       kNotOk,
+       0,
+       {"cumulative"}},
+      {"gins",
+       "run first_fixes_at_0_0.txt --recording-config vehicle.yaml " + kWindow,
+       kOk | kDegraded,
+       0,
+       {"skipped"}},
       // A reference that cannot be used is told, or used.
       {"kitti_calib_without_Tr", "run .", kOk | kDegraded, 0, {"reference"}},
       {"kitti_poses_13_columns", "run .", kOk | kDegraded, 0.03, {"APE"}},
@@ -172,6 +199,33 @@ std::string test_name(const ::testing::TestParamInfo<Case>& row) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfUsers, Cases, ::testing::ValuesIn(rows()), test_name);
+
+/// sbatch answers "Socket timed out" once, squeue always does, and nothing ever runs: so the
+/// command is stopped once it has asked again.
+TEST(SlurmCase, ASubmissionThatTimesOutIsTriedAgain) {
+  if (testing::cases().empty()) GTEST_SKIP() << testing::kNoCases;
+  const fs::path folder = testing::cases() / "slurm_sbatch_times_out_once";
+  const fs::path calls = folder / "bin" / "calls";
+  fs::remove(calls);
+  const TemporaryFolder temporary;
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", ((folder / "bin").string() + ":" + path).c_str(), 1);
+  testing::ProgramProcess batch({"batch", (folder / "plan.yaml").string(), "-o",
+                                 (temporary / "out").string(), "--executor", "slurm"},
+                                temporary / "log");
+  ::setenv("PATH", path.c_str(), 1);
+  const auto times_submitted = [&] {
+    std::error_code none;
+    const auto bytes = fs::file_size(calls, none);
+    return none ? 0 : bytes / std::string("call\n").size();
+  };
+  for (int tenths = 0; times_submitted() < 2 && tenths < 1200 && !batch.has_ended(); ++tenths) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  batch.signal(SIGINT);
+  EXPECT_EQ(batch.wait(), 130) << files::read_text(temporary / "log");
+  EXPECT_EQ(times_submitted(), 2U);
+}
 
 }  // namespace
 }  // namespace traverse

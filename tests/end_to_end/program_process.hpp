@@ -54,6 +54,12 @@ class ProgramProcess {
     }
   }
   void signal(int number) const { ::kill(pid_, number); }
+  /// Whether it has ended by itself; wait() tells how.
+  bool has_ended() const {
+    siginfo_t info{};
+    return ::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           info.si_pid == pid_;
+  }
   /// \returns the exit status, or -1 if a signal ended it.
   int wait() {
     int status = 0;

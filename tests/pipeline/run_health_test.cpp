@@ -199,6 +199,8 @@ TEST(RunHealth, AStartThatComesLateOrCoversLittleDegrades) {
   EXPECT_NEAR(*after(20, 0).first_pose_share, 20 / 59.9, 1e-9);
   EXPECT_THAT(codes(after(35, 0)), ::testing::ElementsAre("late_start"));
   EXPECT_THAT(codes(after(0, 100)), ::testing::ElementsAre("covered"));
+  EXPECT_EQ(after(0, 100).verdict, Health::kDegraded);
+  EXPECT_EQ(after(0, 1000).verdict, Health::kLost);
 }
 
 // ---- GNSS, IMU and wheels
@@ -228,7 +230,7 @@ MadeRun navigation_run(std::size_t frames,
   return run;
 }
 
-TEST(RunHealth, OneRejectedFixIsAnOutlierAndASecondOfThemIsNot) {
+TEST(RunHealth, AFewRejectedFixesAreOutliersAndATenthOrTenSecondsOfThemAreNot) {
   const auto rejected = [](std::size_t count) {
     return health_of(navigation_run(200, [=](std::size_t i) {
       return NavigationFrame{i >= 50 && i < 50 + count ? Fix::kRejected : Fix::kTaken};
@@ -239,6 +241,10 @@ TEST(RunHealth, OneRejectedFixIsAnOutlierAndASecondOfThemIsNot) {
   EXPECT_EQ(rejected(15).verdict, Health::kOk);  // less than a tenth, and not for long
   EXPECT_EQ(rejected(25).verdict, Health::kDegraded);
   EXPECT_NEAR(rejected(25).sensors.front().longest_rejected_s, 2.4, 1e-9);
+  const RunHealth long_spell = health_of(navigation_run(2000, [](std::size_t i) {
+    return NavigationFrame{i >= 50 && i < 160 ? Fix::kRejected : Fix::kTaken};
+  }));
+  EXPECT_EQ(long_spell.verdict, Health::kDegraded);  // few of them, but all that came in 11 s
   EXPECT_EQ(rejected(120).verdict, Health::kLost);
   EXPECT_THAT(rejected(120).summary(), HasSubstr("120 of 200 readings"));
 }
@@ -336,8 +342,9 @@ TEST(RunHealth, AnEstimateThatIsNoPathOfTheReferenceIsLostHoweverWellItIsRegiste
   };
   EXPECT_EQ(scaled(1.01).verdict, Health::kOk);
   EXPECT_NEAR(*scaled(1.01).error_share, 0.01, 1e-3);
-  EXPECT_EQ(scaled(1.1).verdict, Health::kDegraded);
-  EXPECT_EQ(scaled(0.9).verdict, Health::kDegraded);
+  EXPECT_EQ(scaled(1.05).verdict, Health::kOk);
+  EXPECT_EQ(scaled(1.2).verdict, Health::kDegraded);
+  EXPECT_EQ(scaled(0.8).verdict, Health::kDegraded);
   EXPECT_EQ(scaled(0.1).verdict, Health::kLost);
   EXPECT_EQ(scaled(0.49).verdict, Health::kLost);
 }
@@ -357,6 +364,15 @@ TEST(RunHealth, TakesWhatWasFoundAndPutsTheWorstFirst) {
               ::testing::ElementsAre("gyro_in_degrees", "not_registered", "pose_graph"));
   EXPECT_EQ(health.summary(), "The gyro turns 57 times as far.");
   EXPECT_EQ(health.contradictions.size(), 2U);
+}
+
+TEST(RunHealth, OfScansThatAreNotDeskewedTheDataSpeakBeforeTheFormat) {
+  const MadeRun run = lidar_run(40, [](std::size_t) { return LidarFrame{}; });
+  HealthEvidence evidence = run.evidence();
+  evidence.troubles = {{Health::kDegraded, "not_deskewed", "Times are unknown."}};
+  EXPECT_THAT(codes(assess(evidence)), ::testing::ElementsAre("not_deskewed"));
+  evidence.contradictions = {{"point_times_unknown", Health::kDegraded, "The scans are raw.", ""}};
+  EXPECT_THAT(codes(assess(evidence)), ::testing::ElementsAre("point_times_unknown"));
 }
 
 TEST(RunHealth, IsReadBackAsItWasWritten) {

@@ -46,7 +46,7 @@ TEST_F(Budget, AFigureThatIsNotDefinedKeepsNoLimit) {
 
 TEST_F(Budget, OfWhatIsBetterWhenItIsMoreIsTheLeast) {
   EXPECT_TRUE(check("registered_share: 1\n").passed());
-  EXPECT_THAT(check("registered_share: 1\n").table(), HasSubstr("1.00, at least 1.00"));
+  EXPECT_THAT(check("registered_share: 1\n").table(), HasSubstr("1.00 at least 1.00"));
   EXPECT_FALSE(check("registered_share: 1.01\n").passed());
   EXPECT_TRUE(check("restarts: 0\nlost_frames: 0\n").passed());
 }

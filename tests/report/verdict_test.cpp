@@ -63,12 +63,15 @@ class Verdict : public ::testing::Test {
   /// "fail Lost: ..." for each notice.
   std::vector<std::string> notices() const {
     std::vector<std::string> list;
-    for (const Json& notice : model().json["notices"]) {
+    const Json told = model().json["notices"];
+    for (const Json& notice : told) {
       list.push_back(notice["kind"].get<std::string>() + " " + notice["word"].get<std::string>() +
                      ": " + notice["text"].get<std::string>());
     }
     return list;
   }
+
+  std::string first_notice() const { return notices().front(); }
 
   testing::TemporaryFolder folder_;
   RunData run_;
@@ -102,7 +105,7 @@ TEST_F(Verdict, WithoutAReferenceTellsTheWay) {
 TEST_F(Verdict, OfALostRunTellsNothingElse) {
   judge(Health::kLost, "not_registered", "0 of 59 frames were registered (0 %).");
   EXPECT_EQ(sentence(), "Lost: 0 of 59 frames were registered (0 %).");
-  EXPECT_THAT(notices().front(), StartsWith("fail Lost: 0 of 59"));
+  EXPECT_THAT(first_notice(), StartsWith("fail Lost: 0 of 59"));
   EXPECT_THAT(notices(), ::testing::Contains(HasSubstr("No score")));
   EXPECT_THAT(notices(), Not(::testing::Contains(HasSubstr("Healthy"))));
 }
@@ -112,7 +115,7 @@ TEST_F(Verdict, OfADegradedRunBeginsWithWhy) {
   EXPECT_THAT(sentence(),
               StartsWith("Degraded: There is no frame for 3.1 s after frame 19. Drift"));
   EXPECT_THAT(sentence(), Not(HasSubstr("nothing skipped")));
-  EXPECT_THAT(notices().front(), StartsWith("warn Degraded: There is no frame"));
+  EXPECT_THAT(first_notice(), StartsWith("warn Degraded: There is no frame"));
 }
 
 TEST_F(Verdict, OfARunThatFixesHoldLeadsWithItsErrorAndThatAfterOutages) {
@@ -131,12 +134,12 @@ TEST_F(Verdict, HealthyIsARunOfWhichNoSensorWasRejected) {
   run_.health.sensors = {gnss};
   EXPECT_THAT(notices(), ::testing::ElementsAre(HasSubstr("2 of 82 readings of GNSS")));
   judge(Health::kDegraded, "restarted", "The estimator gave up what it knew and began again once.");
-  EXPECT_THAT(notices().front(), StartsWith("warn Degraded"));
+  EXPECT_THAT(first_notice(), StartsWith("warn Degraded"));
   EXPECT_THAT(sentence(), Not(HasSubstr("nothing skipped")));
 }
 
 TEST_F(Verdict, AReferenceThatIsNotUsedIsTold) {
-  run_.record["refused_reference"] = "poses.txt: expected calib.txt with Tr";
+  run_.record["recording"]["reference_refused"] = "poses.txt: expected calib.txt with Tr";
   EXPECT_THAT(notices(), ::testing::Contains(HasSubstr("Reference not used: poses.txt")));
 }
 

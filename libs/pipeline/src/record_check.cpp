@@ -105,6 +105,9 @@ void require_configuration(const JsonValue& configuration) {
 
 void require_recording(const JsonValue& recording) {
   require_texts(recording, {"path", "name", "format"});
+  if (recording.has("reference_refused") && !recording["reference_refused"].is_null()) {
+    require_texts(recording, {"reference_refused"});
+  }
   static_cast<void>(recording["bytes"].count());
   if (recording.has("statements")) static_cast<void>(recording["statements"].texts());
   if (!recording["sha256"].is_null()) require_texts(recording, {"sha256"});
@@ -152,9 +155,6 @@ void require_run_record(const JsonValue& record) {
     require_texts(decision, {"name", "value"});
   });
   if (!record["reference"].is_null()) require_texts(record["reference"], {"file", "description"});
-  if (record.has("reference_refused") && !record["reference_refused"].is_null()) {
-    require_texts(record, {"reference_refused"});
-  }
   if (!record["evaluation_error"].is_null()) require_texts(record, {"evaluation_error"});
   require_configuration(record["configuration"]);
   require_recording(record["recording"]);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -32,10 +32,10 @@ constexpr double kLongestDeadReckoning_s = 10;
 constexpr double kLongRejection_s = kLongestDeadReckoning_s;
 /// Of 10 m and more a path has a shape that can be told from its noise.
 constexpr double kLeastPath_m = 10;
-/// An estimate that misses by half of what standing still would miss tells no path; one that misses
-/// by a twentieth is worse than the speedometer of a car, of which nobody has calibrated anything.
+/// An estimate that misses by half of what standing still would miss tells no path. One that misses
+/// by a tenth is worse than the speedometer of a car may be (UN Regulation No. 39).
 constexpr double kLostError = 0.5;
-constexpr double kDegradedError = 0.05;
+constexpr double kDegradedError = 0.1;
 constexpr double kLongGap_s = 1;
 constexpr double kGap = 1.5;  // usual intervals
 /// Half a minute of a start is a start; of longer ones a tenth of the recording counts.
@@ -307,7 +307,7 @@ void judge_recording(const RunHealth& health, Reasons& reasons) {
   }
   if (health.covered_share && *health.covered_share < kHalf) {
     reasons.add(
-        Health::kDegraded, "covered",
+        *health.covered_share < kTenth ? Health::kLost : Health::kDegraded, "covered",
         fmt::format("The poses cover {} of the recording's time.", percent(*health.covered_share)));
   }
   if (health.gaps.longest_s > std::max(kLongGap_s, 3 * health.gaps.usual_s)) {
@@ -360,6 +360,12 @@ void add_times(const HealthEvidence& evidence, RunHealth& health) {
   health.first_pose_after_s = geometry::seconds_between(*evidence.recording_first, path.stamp(0));
   health.first_pose_share = *health.first_pose_after_s / all_s;
   health.covered_share = seconds_between(path, 0, path.size() - 1) / all_s;
+}
+
+/// What the data themselves show says more than what is known of their format.
+bool has_found(const HealthEvidence& evidence, std::string_view code) {
+  return std::any_of(evidence.contradictions.begin(), evidence.contradictions.end(),
+                     [&](const Contradiction& found) { return found.code == code; });
 }
 
 }  // namespace
@@ -432,6 +438,7 @@ RunHealth assess(const HealthEvidence& evidence) {
   judge_recording(health, reasons);
   judge_error(evidence, health, reasons);
   for (const HealthReason& trouble : evidence.troubles) {
+    if (trouble.code == "not_deskewed" && has_found(evidence, "point_times_unknown")) continue;
     reasons.add(trouble.severity, trouble.code, trouble.text);
   }
   for (const Contradiction& found : evidence.contradictions) {

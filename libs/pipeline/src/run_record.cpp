@@ -203,9 +203,6 @@ std::string to_json(const RunRecord& record, const BuildInfo& build, const HostI
     json["reference"] = {{"file", *record.reference_file},
                          {"description", record.reference_description}};
   }
-  json["reference_refused"] = record.recording.reference_refused.empty()
-                                  ? Json(nullptr)
-                                  : Json(record.recording.reference_refused);
   json["evaluation_error"] =
       record.evaluation_error.empty() ? Json(nullptr) : Json(record.evaluation_error);
   json["configuration"] = {{"estimator", record.estimator_kind},

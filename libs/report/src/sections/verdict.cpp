@@ -119,8 +119,9 @@ void add_recording_notices(const RunData& run, std::vector<Notice>& list) {
   if (!run.record.at("evaluation_error").is_null()) {
     list.push_back({"fail", "Not compared", run.record.at("evaluation_error")});
   }
-  const auto refused = run.record.find("reference_refused");
-  if (refused != run.record.end() && !refused->is_null()) {
+  const auto& recording = run.record.at("recording");
+  const auto refused = recording.find("reference_refused");
+  if (refused != recording.end() && !refused->is_null()) {
     list.push_back({"warn", "Reference not used", refused->get<std::string>()});
   }
   for (const auto& [reason, skipped] : run.record.at("skipped_records").items()) {
