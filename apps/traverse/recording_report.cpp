@@ -107,9 +107,19 @@ std::string facts_text(const Source& source) {
   Table table({{}, {Table::Align::kLeft, 52}, {Table::Align::kLeft, 44}});
   table.add_row({"fact", "value", "because"});
   for (const dataset::Fact& fact : source.info().facts) {
-    table.add_row({fact.name, fact.value, fact.reason});
+    if (fact.name != dataset::kNotUsed) table.add_row({fact.name, fact.value, fact.reason});
   }
   return "\nTaken for true\n" + table.text(kIndent);
+}
+
+/// Each option on one line, to be copied.
+std::string unused_text(const Source& source) {
+  std::string text;
+  for (const dataset::Fact& fact : source.info().facts) {
+    if (fact.name != dataset::kNotUsed) continue;
+    text += fmt::format("  {}\n      {}\n", fact.value, fact.reason);
+  }
+  return text.empty() ? text : "\nNot used\n" + text;
 }
 
 std::string findings_text(const std::vector<plausibility::Finding>& findings) {
@@ -161,8 +171,8 @@ std::string recording_text(const Source& source, const RecordingSurvey& survey,
   for (const StreamSurvey& stream : survey.streams) {
     if (stream.lidar) text += lidar_text(stream.sensor, *stream.lidar);
   }
-  return text + facts_text(source) + reference_text(survey) + skipped_text(source.skipped()) +
-         findings_text(findings);
+  return text + facts_text(source) + unused_text(source) + reference_text(survey) +
+         skipped_text(source.skipped()) + findings_text(findings);
 }
 
 }  // namespace traverse::app

@@ -242,7 +242,8 @@ TEST_F(RunPlaces, ARunNamesWhatLiesBesideIt) {
   fs::copy_file(file("home/street.rawlog"), file("beside/street.rawlog"));
   fs::copy_file(file("home/street.reference.tum"), file("beside/street_gt.tum"));
   const auto info = run_program("info " + file("beside/street.rawlog"));
-  EXPECT_THAT(info.output, AllOf(HasSubstr("not used"), HasSubstr("street_gt.tum: 100 poses")));
+  EXPECT_THAT(info.output, AllOf(HasSubstr("Not used"), HasSubstr("street_gt.tum: 100 poses"),
+                                 HasSubstr("--reference " + file("beside/street_gt.tum") + "\n")));
   const auto run = run_program(fmt::format("run {} -o {} --no-report --no-hash",
                                            file("beside/street.rawlog"), file("beside/run")));
   ASSERT_EQ(run.status, 0) << run.messages;

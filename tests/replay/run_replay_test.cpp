@@ -84,13 +84,16 @@ TEST_F(RunReplay, FindsARecordingThatWasMoved) {
 }
 
 TEST_F(RunReplay, FindsARecordingThatMovedAlong) {
-  std::filesystem::create_directory(parent_ / "elsewhere");
-  for (const char* name :
+  const std::string name = "it's where it is, in a folder of a name that messages would shorten";
+  std::filesystem::create_directory(parent_ / name);
+  for (const char* moved :
        {"street.rawlog", "street.traverse.yaml", "street.reference.tum", "run"}) {
-    std::filesystem::rename(parent_ / name, parent_ / "elsewhere" / name);
+    std::filesystem::rename(parent_ / moved, parent_ / name / moved);
   }
-  const Recording run = Recording::open(parent_ / "elsewhere/run", testing::open_options());
-  EXPECT_EQ(run.info().path, parent_ / "elsewhere/street.rawlog");
+  const Recording run = Recording::open(parent_ / name / "run", testing::open_options());
+  EXPECT_EQ(run.info().path, parent_ / name / "street.rawlog");
+  ASSERT_TRUE(run.reference());
+  EXPECT_EQ(run.reference()->T_map_body.size(), kFramesOfRun);
   EXPECT_EQ(run.make_pipeline({}, 1).name, "traverse (as run)");
 }
 

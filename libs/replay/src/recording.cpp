@@ -1,5 +1,6 @@
 #include "traverse/replay/recording.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -19,12 +20,10 @@ namespace fs = std::filesystem;
 /// What was stated about the recording of a run holds for its replay too. The reference does not:
 /// the run has it, and its file may be gone.
 void add_statements(const RunFacts& facts, dataset::OpenOptions& options) {
-  std::vector<std::string> statements;
-  if (facts.statements) {
-    for (const std::string& statement : *facts.statements) {
-      if (!statement.starts_with("reference.")) statements.push_back(statement);
-    }
-  }
+  options.wants_reference =
+      std::any_of(options.statements.begin(), options.statements.end(),
+                  [](const std::string& stated) { return stated.starts_with("reference."); });
+  std::vector<std::string> statements = facts.statements.value_or(std::vector<std::string>());
   const std::vector<std::string>& command = facts.command;
   for (std::size_t i = 0; !facts.statements && i + 1 < command.size(); ++i) {
     if (command[i] == "--recording") statements.push_back(command[i + 1]);
@@ -49,12 +48,6 @@ Recording Recording::open(const fs::path& file_or_run, const dataset::OpenOption
     recording.path_ = moved_to.empty() ? facts.recording : moved_to;
     recording.max_frames_ = facts.first_frame + facts.frames;
     add_statements(facts, recording.options_);
-    if (contents->reference) {  // whatever has become of the file that it was read from
-      auto& statements = recording.options_.statements;
-      const std::string file = fs::absolute(folder.reference()).string();
-      statements.insert(statements.begin(),
-                        {"reference.file=" + files::in_quotes(file), "reference.format=tum"});
-    }
     if (!fs::exists(recording.path_)) {
       throw files::InputError(folder.record(), files::Place::key("recording.path"),
                               "the recording of the run where it was (--moved-to says where it is "

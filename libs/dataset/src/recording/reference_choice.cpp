@@ -54,7 +54,7 @@ std::optional<Pose3> T_body_sensor(ReferenceFrame frame, const ReferenceFrames& 
 }  // namespace
 
 std::optional<ReferenceFile> stated_reference(const Statements& statements) {
-  if (!statements.states("reference.file")) return std::nullopt;
+  if (!statements.want_reference() || !statements.states("reference.file")) return std::nullopt;
   ReferenceFile file;
   file.file = statements.find_file("reference.file", statements->reference_file);
   file.format = statements->reference_format;

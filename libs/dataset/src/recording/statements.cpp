@@ -65,7 +65,7 @@ void bind(Binder& b, StatedValues& v) {
 }
 
 Statements::Statements(const fs::path& sidecar, const OpenOptions& options, fs::path folder)
-    : folder_(std::move(folder)) {
+    : folder_(std::move(folder)), wants_reference_(options.wants_reference) {
   if (fs::exists(sidecar)) document_.overlay(config::Document::load(sidecar));
   if (options.statements_file) {
     document_.overlay(config::Document::load(*options.statements_file));

@@ -58,6 +58,7 @@ class Statements {
   Statements(const std::filesystem::path& sidecar, const OpenOptions& options,
              std::filesystem::path folder);
 
+  bool want_reference() const { return wants_reference_; }
   const StatedValues* operator->() const { return &values_; }
   bool states(std::string_view key) const { return document_.origin(key).has_value(); }
 
@@ -80,6 +81,7 @@ class Statements {
   config::Document document_;
   StatedValues values_;
   std::filesystem::path folder_;
+  bool wants_reference_;
 };
 
 }  // namespace traverse::dataset

@@ -33,6 +33,8 @@ constexpr std::array<std::string_view, 5> kReferenceWords{"pose", "truth", "refe
 constexpr std::array<std::string_view, 8> kWholeNames{
     "poses", "gt", "groundtruth", "ground_truth", "truth", "reference", "trajectory", "traj"};
 constexpr std::array<std::string_view, 3> kLidarWords{"velo", "lidar", "laser"};
+/// Of frames that no option names.
+constexpr std::array<std::string_view, 2> kOtherFrames{"imu", "oxts"};
 
 std::string in_lower_case(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -106,7 +108,7 @@ std::optional<std::string> as_reference(const fs::path& file, std::size_t scans)
   const std::string name = in_lower_case(file.stem().string());
   const bool is_named_so =
       has_any(name, kReferenceWords) || has_word_gt(name) || file.extension() == ".tum";
-  if (!is_named_so) return std::nullopt;
+  if (!is_named_so || has_any(name, kOtherFrames)) return std::nullopt;
   try {
     const TrajectoryFormat format = detect_trajectory_format(file);
     const std::size_t poses = read_trajectory(file, format).size();  // throws where it is none
@@ -207,7 +209,7 @@ void note_unused_files(RecordingInfo& info, const OpenOptions& options,
   const fs::path folder = folder_of(info);
   note_statements(info, folder, options);
   const std::vector<fs::path> files = text_files_in(folder);
-  if (!reference) note_references(info, files, scans);
+  if (!reference && options.wants_reference) note_references(info, files, scans);
   const bool has_lidar = info.rig.first(sensors::SensorKind::kLidar) != nullptr;
   if (has_lidar && !info.T_body_camera) note_calibrations(info, files);
 }

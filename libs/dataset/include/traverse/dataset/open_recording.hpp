@@ -55,6 +55,8 @@ struct OpenOptions {
   std::vector<std::string> statements;  ///< "motion_compensated=true", "lidar.sweep_s=0.1"
   /// SHARE: the folder with sensors/*.yaml.
   std::filesystem::path share_folder;
+  /// False: whoever opens it has the reference already; the file that is stated need not be there.
+  bool wants_reference = true;
 };
 
 /// What `options` state, each key for itself, so that it holds from any working directory: a file
