@@ -420,7 +420,8 @@ CLI::App* add_estimating(CLI::App& app, const std::string& name, const std::stri
          "--accept", arguments->accepted,
          "go on although the recording contradicts itself in this way; the code is in the message")
       ->type_name("CODE")
-      ->check(CLI::IsMember(contradiction_codes()))
+      // Without a description: of --help the list of all codes would be the longest part.
+      ->check(CLI::IsMember(contradiction_codes()).description(""))
       ->allow_extra_args(false);
   run->add_flag("!--no-report", arguments->report, "no pictures and no report.html");
   run->add_flag("--utm", arguments->utm,

@@ -138,6 +138,17 @@ TEST_F(Verdict, HealthyIsARunOfWhichNoSensorWasRejected) {
   EXPECT_THAT(sentence(), Not(HasSubstr("nothing skipped")));
 }
 
+TEST_F(Verdict, WarningsOfTheComparisonAndStepsOfTheClockAreTold) {
+  run_.evaluation.comparison->warnings = {"only 1 of 120 poses has a pair"};
+  run_.record["recording"]["facts"] = nlohmann::json::array(
+      {{{"name", "clock set back"}, {"value", "lidar: by 100.000 s"}, {"reason", "moved"}},
+       {{"name", "sensor"}, {"value", "HDL-64E"}, {"reason", "stated"}}});
+  EXPECT_THAT(notices(), ::testing::IsSupersetOf(
+                             {std::string("warn Comparison: only 1 of 120 poses has a pair"),
+                              std::string("warn Clock set: lidar: by 100.000 s; moved.")}));
+  EXPECT_THAT(notices(), Not(::testing::Contains(HasSubstr("HDL-64E"))));
+}
+
 TEST_F(Verdict, AReferenceThatIsNotUsedIsTold) {
   run_.record["recording"]["reference_refused"] = "poses.txt: expected calib.txt with Tr";
   EXPECT_THAT(notices(), ::testing::Contains(HasSubstr("Reference not used: poses.txt")));

@@ -65,6 +65,33 @@ double noise_of(const std::vector<Point>& points) {
   return lengths.empty() ? 0 : statistics::median(lengths) / (1.177 * std::sqrt(6.0));
 }
 
+/// How far the middle one of three lies from where the others say it was at its time.
+double deviation_m(const Point& before, const Point& point, const Point& after) {
+  const double share = (point.t - before.t) / (after.t - before.t);
+  return (point.p - before.p - share * (after.p - before.p)).norm();
+}
+
+/// Without those to which no vehicle drove: an outlier, of which a gate costs the estimator one
+/// fix, would be two legs of a length and a turn of their own.
+std::vector<Point> without_spikes(const std::vector<Point>& points, double sigma_m) {
+  constexpr double kFastest_mps2 = 20;     // twice what tyres hold
+  constexpr double kMaxSigmas = 8 * 1.23;  // sqrt(3/2): noise of a deviation in sigmas of a fix
+  std::vector<Point> kept;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!kept.empty() && i + 1 < points.size()) {
+      const double before_s = points[i].t - kept.back().t;
+      const double after_s = points[i + 1].t - points[i].t;
+      const double by_driving_m = 0.5 * kFastest_mps2 * before_s * after_s;
+      if (before_s + after_s > 0 && deviation_m(kept.back(), points[i], points[i + 1]) >
+                                        by_driving_m + kMaxSigmas * sigma_m) {
+        continue;
+      }
+    }
+    kept.push_back(points[i]);
+  }
+  return kept;
+}
+
 }  // namespace
 
 double Leg::course() const { return std::atan2(way_m.y(), way_m.x()); }
@@ -77,9 +104,10 @@ Legs legs_of(const GnssTrack& track, PlaceReading reading, double delay_s) {
   constexpr double kMinLength_m = 2;
   constexpr double kMinSigmas = 25;
   constexpr double kMaxTime_s = 10;
-  const std::vector<Point> points = points_of(track, reading, delay_s);
+  std::vector<Point> points = points_of(track, reading, delay_s);
   Legs result;
   result.sigma_m = noise_of(points);
+  points = without_spikes(points, result.sigma_m);
   const double length_m = std::max(kMinLength_m, kMinSigmas * result.sigma_m);
   std::size_t begin = 0;
   for (std::size_t end = 1; end < points.size(); ++end) {

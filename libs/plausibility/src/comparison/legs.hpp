@@ -33,8 +33,8 @@ struct Legs {
 };
 
 /// Legs of at least 2 m and 25 sigma in at most 10 s, so that a course is good to 0.1 rad; none if
-/// the places are nowhere under that reading.
-/// \param delay_s by which fixes are late, taken off their times
+/// the places are nowhere under that reading. Fixes where no vehicle could have gone to are left
+/// out. \param delay_s by which fixes are late, taken off their times
 Legs legs_of(const GnssTrack& track, PlaceReading reading, double delay_s);
 
 /// A turn of the course over at least a second.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "traverse/dataset/source.hpp"
 #include "traverse/evaluation/titles.hpp"
 
 #include "charts/navigation_series.hpp"
@@ -123,6 +124,18 @@ void add_recording_notices(const RunData& run, std::vector<Notice>& list) {
   const auto refused = recording.find("reference_refused");
   if (refused != recording.end() && !refused->is_null()) {
     list.push_back({"warn", "Reference not used", refused->get<std::string>()});
+  }
+  if (run.evaluation.comparison) {
+    for (const std::string& warning : run.evaluation.comparison->warnings) {
+      list.push_back({"warn", "Comparison", warning});
+    }
+  }
+  for (const Json& fact : recording.value("facts", Json::array())) {
+    const std::string name = fact.at("name");
+    if (!dataset::is_clock_step(dataset::Fact{name, "", ""})) continue;
+    list.push_back({"warn", "Clock set",
+                    fmt::format("{}; {}.", fact.at("value").get<std::string>(),
+                                fact.at("reason").get<std::string>())});
   }
   for (const auto& [reason, skipped] : run.record.at("skipped_records").items()) {
     list.push_back(
