@@ -4,7 +4,6 @@
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
-#include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CSensoryFrame.h>
@@ -70,6 +69,23 @@ TEST(KeyframeMap, IsOpenedByMrptWithPosesAndPoints) {
   ASSERT_TRUE(observation);
   EXPECT_EQ(observation->sensorLabel, "lidar");
   EXPECT_EQ(observation->pointcloud->size(), 3U);
+}
+
+TEST(KeyframeMap, HoldsCloudsThatMrpt3ReadsAndLosesNothingOfThem) {
+  const testing::TemporaryFolder folder;
+  made_map(folder.path(), {}, {}).write(folder / "map.simplemap");
+  mrpt::maps::CSimpleMap loaded;
+  ASSERT_TRUE(loaded.loadFromFile((folder / "map.simplemap").string()));
+  mrpt::poses::CPose3DPDF::Ptr pose;
+  mrpt::obs::CSensoryFrame::Ptr frame;
+  loaded.get(0, pose, frame);
+  const auto observation = frame->getObservationByClass<mrpt::obs::CObservationPointCloud>();
+  ASSERT_TRUE(observation);
+  EXPECT_STREQ(observation->pointcloud->GetRuntimeClass()->className,
+               "mrpt::maps::CSimplePointsMap");
+  const std::vector<MapKeyframe> keyframes = read_simple_map(folder / "map.simplemap");
+  ASSERT_EQ(keyframes.size(), 2U);
+  EXPECT_EQ(keyframes[0].intensity, (std::vector<float>{0.1F, 0.2F, 0.3F}));
 }
 
 TEST(KeyframeMap, AFullDiskIsAnErrorAndLeavesNothing) {

@@ -5,18 +5,17 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
-#include <tsl/robin_set.h>
 #include <vector>
 
 #include <Eigen/Dense>
-#include <mrpt/maps/CPointsMapXYZI.h>
+#include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
 #include "traverse/files/scratch_file.hpp"
 #include "traverse/geometry/so3.hpp"
-#include "traverse/geometry/voxel.hpp"
+#include "traverse/geometry/voxel_set.hpp"
 #include "traverse/mrpt_io/mrpt_values.hpp"
 #include "traverse/mrpt_io/point_attributes.hpp"
 #include "traverse/mrpt_io/simple_map_file.hpp"
@@ -41,10 +40,9 @@ struct Bytes {
 /// Of each cube the first of the keyframe's points.
 std::vector<std::size_t> thinned(const MapKeyframe& keyframe, double voxel_m) {
   std::vector<std::size_t> kept;
-  tsl::robin_set<std::uint64_t, geometry::VoxelHash> occupied;
+  geometry::VoxelSet voxels(voxel_m);
   for (std::size_t i = 0; i < keyframe.size(); ++i) {
-    const Eigen::Vector3d p = keyframe.p_body(i);
-    if (occupied.insert(geometry::voxel_key(p, voxel_m)).second) kept.push_back(i);
+    if (voxels.insert(keyframe.p_body(i))) kept.push_back(i);
   }
   return kept;
 }
@@ -55,20 +53,18 @@ mrpt_io::PointAttributes attributes_of(const MapKeyframe& keyframe,
   for (const std::size_t i : kept) {
     if (!keyframe.time.empty()) attributes.time.push_back(keyframe.time[i]);
     if (!keyframe.ring.empty()) attributes.ring.push_back(keyframe.ring[i]);
+    if (!keyframe.intensity.empty()) attributes.intensity.push_back(keyframe.intensity[i]);
   }
   return attributes;
 }
 
 mrpt::obs::CObservationPointCloud::Ptr cloud_of(const MapKeyframe& keyframe,
                                                 const std::vector<std::size_t>& kept) {
-  auto points = mrpt::maps::CPointsMapXYZI::Create();
+  auto points = mrpt::maps::CSimplePointsMap::Create();
   points->reserve(kept.size());
   for (const std::size_t i : kept) {
     const Eigen::Vector3f p = (keyframe.p_body(i) - keyframe.p_body_sensor).cast<float>();
     points->insertPointFast(p.x(), p.y(), p.z());
-    if (!keyframe.intensity.empty()) {
-      points->setPointIntensity(points->size() - 1, keyframe.intensity[i]);
-    }
   }
   points->mark_as_modified();
   auto observation = mrpt::obs::CObservationPointCloud::Create();

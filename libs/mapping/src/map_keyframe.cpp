@@ -86,6 +86,7 @@ std::vector<MapKeyframe> read_simple_map(const std::filesystem::path& file) {
     mrpt_io::PointAttributes attributes = mrpt_io::attributes_of(frame, keyframe.size());
     keyframe.time = std::move(attributes.time);
     keyframe.ring = std::move(attributes.ring);
+    if (!attributes.intensity.empty()) keyframe.intensity = std::move(attributes.intensity);
     points += keyframe.size();
   });
   if (points == 0) {

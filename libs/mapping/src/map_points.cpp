@@ -1,12 +1,11 @@
 #include "map_points.hpp"
 
 #include <algorithm>
-#include <tsl/robin_set.h>
 
 #include <Eigen/Dense>
 
 #include "traverse/dataset/point_cloud_file.hpp"
-#include "traverse/geometry/voxel.hpp"
+#include "traverse/geometry/voxel_set.hpp"
 
 namespace traverse::mapping {
 
@@ -21,12 +20,12 @@ double time_of(const MapKeyframe& keyframe, std::size_t i) {
 
 MapPoints map_points(std::span<const MapKeyframe> keyframes, double voxel_m) {
   MapPoints points;
-  tsl::robin_set<std::uint64_t, geometry::VoxelHash> occupied;
+  geometry::VoxelSet voxels(voxel_m);
   for (std::size_t k = 0; k < keyframes.size(); ++k) {
     const MapKeyframe& keyframe = keyframes[k];
     for (std::size_t i = 0; i < keyframe.size(); ++i) {
       const Eigen::Vector3d p = keyframe.T_map_body * keyframe.p_body(i);
-      if (!occupied.insert(geometry::voxel_key(p, voxel_m)).second) continue;
+      if (!voxels.insert(p)) continue;
       points.x.push_back(static_cast<float>(p.x()));
       points.y.push_back(static_cast<float>(p.y()));
       points.z.push_back(static_cast<float>(p.z()));

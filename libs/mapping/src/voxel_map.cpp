@@ -1,25 +1,14 @@
 #include "traverse/mapping/voxel_map.hpp"
 
-#include <cmath>
-#include <cstdint>
 #include <stdexcept>
-#include <tsl/robin_set.h>
 #include <utility>
 
 #include "traverse/dataset/point_cloud_file.hpp"
-#include "traverse/geometry/voxel.hpp"
 
 namespace traverse::mapping {
 
-struct VoxelMap::Occupied {
-  tsl::robin_set<std::uint64_t, geometry::VoxelHash> voxels;
-};
-
 VoxelMap::VoxelMap(double voxel_m, std::size_t max_points)
-    : voxel_m_(voxel_m), max_points_(max_points), occupied_(std::make_unique<Occupied>()) {}
-VoxelMap::VoxelMap(VoxelMap&&) noexcept = default;
-VoxelMap& VoxelMap::operator=(VoxelMap&&) noexcept = default;
-VoxelMap::~VoxelMap() = default;
+    : voxel_m_(voxel_m), max_points_(max_points), occupied_(voxel_m) {}
 
 void VoxelMap::insert(std::span<const float> x, std::span<const float> y, std::span<const float> z,
                       std::span<const float> intensity, const geometry::Pose3& T_map_body) {
@@ -34,7 +23,7 @@ void VoxelMap::insert(std::span<const float> x, std::span<const float> y, std::s
 }
 
 void VoxelMap::add(const Eigen::Vector3d& p_map, float intensity) {
-  if (!occupied_->voxels.insert(geometry::voxel_key(p_map, voxel_m_)).second) return;
+  if (!occupied_.insert(p_map)) return;
   points_.push_back(p_map.cast<float>());
   intensities_.push_back(intensity);
 }
@@ -42,8 +31,8 @@ void VoxelMap::add(const Eigen::Vector3d& p_map, float intensity) {
 void VoxelMap::coarsen() {
   const std::vector<Eigen::Vector3f> points = std::exchange(points_, {});
   const std::vector<float> intensities = std::exchange(intensities_, {});
-  occupied_->voxels.clear();
   voxel_m_ *= 2;
+  occupied_ = geometry::VoxelSet(voxel_m_);
   for (std::size_t i = 0; i < points.size(); ++i) {
     add(points[i].cast<double>(), intensities[i]);
   }

@@ -17,8 +17,10 @@
 
 #include "traverse/mrpt_io/gz_stream.hpp"
 #include "traverse/mrpt_io/mrpt_values.hpp"
+#include "traverse/packets/velodyne.hpp"
 
 #include "allocation_guard.hpp"
+#include "later_records.hpp"
 
 namespace traverse::mrpt_io {
 
@@ -44,12 +46,11 @@ std::vector<double> elevations_deg(const VelodyneCalibration& calibration) {
   return elevations;
 }
 
-/// Blocks with another header are damaged; MRPT would complain about each on the terminal.
-bool is_whole(const CObservationVelodyneScan::TVelodyneRawPacket& packet) {
-  return std::all_of(std::begin(packet.blocks), std::end(packet.blocks), [](const auto& block) {
-    return block.header() == CObservationVelodyneScan::UPPER_BANK ||
-           block.header() == CObservationVelodyneScan::LOWER_BANK;
-  });
+using Packet = CObservationVelodyneScan::TVelodyneRawPacket;
+static_assert(sizeof(Packet) == packets::kVelodynePacketBytes);
+
+packets::VelodynePacket bytes_of(const Packet& packet) {
+  return packets::VelodynePacket(reinterpret_cast<const std::uint8_t*>(&packet), sizeof(Packet));
 }
 
 const VelodyneCalibration& default_calibration(std::uint8_t model) {
@@ -61,19 +62,58 @@ const VelodyneCalibration& default_calibration(std::uint8_t model) {
       fmt::format("Velodyne packets of model 0x{:x} without a calibration", model));
 }
 
-void generate_points(CObservationVelodyneScan& observation) {
-  std::erase_if(observation.scan_packets, [](const auto& packet) { return !is_whole(packet); });
+/// MRPT 2.5.8 stores degrees where it has read XML and radians where it has read YAML; the sine
+/// that it stores beside the elevation tells which.
+std::vector<packets::VelodyneLaser> lasers_of(const VelodyneCalibration& calibration) {
+  const auto& stored = calibration.laser_corrections;
+  const bool is_degrees = std::any_of(stored.begin(), stored.end(), [](const auto& laser) {
+    return std::abs(std::sin(laser.verticalCorrection) - laser.sinVertCorrection) > 1e-3;
+  });
+  std::vector<packets::VelodyneLaser> lasers;
+  for (const auto& laser : stored) {
+    lasers.push_back({std::asin(laser.sinVertCorrection),
+                      laser.azimuthCorrection / (is_degrees ? kDegreesPerRadian : 1),
+                      laser.distanceCorrection, laser.verticalOffsetCorrection,
+                      laser.horizontalOffsetCorrection});
+  }
+  return lasers;
+}
+
+packets::VelodyneDecoder decoder_for(const VelodyneCalibration& calibration) {
+  using packets::VelodyneModel;
+  const auto lasers = lasers_of(calibration);
+  switch (lasers.size()) {
+    case 16:
+      return {VelodyneModel::kVlp16, lasers};
+    case 32:
+      return {VelodyneModel::kHdl32e, lasers};
+    case 64:
+      return {VelodyneModel::kHdl64e, lasers};
+    default:
+      throw UnusableObservation(
+          fmt::format("Velodyne packets with a calibration of {} lasers, expected 16, 32 or 64",
+                      lasers.size()));
+  }
+}
+
+/// By our own decoder: that of MRPT 2.5.8 takes 16 of the 32 returns of a block, and gives all
+/// points of a packet one time.
+LidarScan decode_packets(CObservationVelodyneScan& observation) {
+  std::erase_if(observation.scan_packets,
+                [](const Packet& packet) { return !packets::is_velodyne_data(bytes_of(packet)); });
   if (observation.scan_packets.empty()) {
     throw UnusableObservation("Velodyne scan without points or whole packets");
   }
+  const Packet& first = observation.scan_packets.front();
   if (observation.calibration.laser_corrections.empty()) {
-    observation.calibration =
-        default_calibration(observation.scan_packets.front().velodyne_model_ID);
+    observation.calibration = default_calibration(first.velodyne_model_ID);
   }
-  CObservationVelodyneScan::TGeneratePointCloudParameters parameters;
-  parameters.minDistance = 0;  // the observation's own limits hold
-  parameters.generatePerPointTimestamp = true;
-  observation.generatePointCloud(parameters);
+  const packets::VelodyneDecoder decoder = decoder_for(observation.calibration);
+  LidarScan scan;
+  for (const Packet& packet : observation.scan_packets) {
+    decoder.append(bytes_of(packet), packets::velodyne_microseconds(bytes_of(first)), scan);
+  }
+  return scan;
 }
 
 /// Through unsigned numbers, because stamps in a damaged file may be as far apart as they can.
@@ -129,7 +169,10 @@ Columns columns_of(const CObservationRotatingScan& observation) {
 }  // namespace
 
 LidarScan take_scan(CObservationVelodyneScan& observation) {
-  if (observation.point_cloud.size() == 0) generate_points(observation);
+  // Points that are stored beside the packets were made by MRPT's decoder.
+  if (!observation.scan_packets.empty() || observation.point_cloud.size() == 0) {
+    return decode_packets(observation);
+  }
   auto& cloud = observation.point_cloud;
   LidarScan scan;
   scan.x = std::move(cloud.x);
@@ -157,7 +200,13 @@ LidarScan take_scan(CObservationPointCloud& observation, const std::string& exte
   scan.x.assign(cloud.getPointsBufferRef_x().begin(), cloud.getPointsBufferRef_x().end());
   scan.y.assign(cloud.getPointsBufferRef_y().begin(), cloud.getPointsBufferRef_y().end());
   scan.z.assign(cloud.getPointsBufferRef_z().begin(), cloud.getPointsBufferRef_z().end());
-  if (const auto* xyzi = dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&cloud)) {
+  const auto* later = dynamic_cast<const LaterPoints*>(&cloud);
+  if (later != nullptr) {
+    if (later->ring.size() == scan.size()) scan.ring = later->ring;
+    if (later->time.size() == scan.size()) scan.time = later->time;
+  }
+  const auto* xyzi = dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&cloud);
+  if (xyzi != nullptr && (later == nullptr || later->has_intensity)) {
     const auto& intensity = xyzi->getPointsBufferRef_intensity();
     scan.intensity.assign(intensity.begin(), intensity.end());
   }
@@ -258,7 +307,10 @@ LidarProfile profile_of(const CObservationRotatingScan& observation) {
 
 LidarProfile profile_of(const CObservationPointCloud&, const LidarScan& scan) {
   LidarProfile profile;
-  profile.time_source = sensors::TimeSource::kNone;
+  profile.time_source = scan.time.empty() ? sensors::TimeSource::kNone : sensors::TimeSource::kData;
+  if (!scan.ring.empty()) {
+    profile.rings = *std::max_element(scan.ring.begin(), scan.ring.end()) + 1;
+  }
   const auto brightest = std::max_element(scan.intensity.begin(), scan.intensity.end());
   if (brightest != scan.intensity.end() && *brightest <= 1) profile.intensity_full_scale = 1;
   return profile;

@@ -20,6 +20,7 @@ mrpt::obs::CObservationRawDAQ::Ptr to_observation(const PointAttributes& attribu
   observation->AIN_channel_count = 1;
   observation->AIN_float = attributes.time;
   observation->AIN_16bits = attributes.ring;
+  observation->AOUT_float = attributes.intensity;
   return observation;
 }
 
@@ -35,6 +36,7 @@ PointAttributes attributes_of(const mrpt::obs::CSensoryFrame& frame, std::size_t
   if (found == nullptr) return attributes;
   if (found->AIN_float.size() == points) attributes.time = found->AIN_float;
   if (found->AIN_16bits.size() == points) attributes.ring = found->AIN_16bits;
+  if (found->AOUT_float.size() == points) attributes.intensity = found->AOUT_float;
   return attributes;
 }
 

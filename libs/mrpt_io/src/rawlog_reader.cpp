@@ -11,6 +11,7 @@
 #include "traverse/mrpt_io/mrpt_values.hpp"
 
 #include "allocation_guard.hpp"
+#include "later_records.hpp"
 
 namespace traverse::mrpt_io {
 
@@ -50,6 +51,7 @@ std::string without_namespace(const std::string& name) {
 }  // namespace
 
 RawlogReader::RawlogReader(const std::filesystem::path& file) : stream_(file) {
+  read_later_records();
   const std::string_view start = stream_.peek(16);
   const auto class_name = class_at_head(stream_);
   if (!start.empty() && class_name) return;

@@ -14,6 +14,7 @@
 #include "traverse/mrpt_io/mrpt_values.hpp"
 
 #include "allocation_guard.hpp"
+#include "later_records.hpp"
 
 namespace traverse::mrpt_io {
 
@@ -21,7 +22,8 @@ namespace {
 
 constexpr int kCompression = 1;  // as MRPT's
 constexpr std::uint8_t kPosesOfSpace = 1;
-constexpr double kFarthest_m = 1e9;  // from the origin of the map: nothing drives there
+constexpr std::uint8_t kWithTwists = 2;  // since MRPT 2.15.0
+constexpr double kFarthest_m = 1e9;      // from the origin of the map: nothing drives there
 constexpr float kSight_m = 1e5;
 
 // To MRPT's archives both classes are the map they are derived from: they add no run-time type and
@@ -45,6 +47,18 @@ class WrittenOneByOne final : public mrpt::maps::CSimpleMap {
   const std::function<void(mrpt::serialization::CArchive&, std::size_t)>& write_;
 };
 
+/// A std::optional of a velocity: its own name, that of the type, whether there is one, six
+/// numbers.
+void pass_twist(mrpt::serialization::CArchive& archive) {
+  std::string name;
+  std::string type;
+  archive >> name >> type;
+  if (name != "std::optional") throw std::runtime_error("no velocity behind a keyframe");
+  bool has_value = false;
+  archive >> has_value;
+  for (int i = 0; has_value && i < 6; ++i) archive.ReadAs<double>();
+}
+
 class TakenOneByOne final : public mrpt::maps::CSimpleMap {
  public:
   using Take = std::function<void(std::size_t, const mrpt::poses::CPose3DPDF&,
@@ -57,7 +71,7 @@ class TakenOneByOne final : public mrpt::maps::CSimpleMap {
 
  protected:
   void serializeFrom(mrpt::serialization::CArchive& archive, std::uint8_t version) override {
-    if (version != kPosesOfSpace) {  // of the plane, or of a later MRPT: left to MRPT
+    if (version != kPosesOfSpace && version != kWithTwists) {  // of the plane, or yet later
       CSimpleMap::serializeFrom(archive, version);
       for (const Pair& pair : *this) take(*pair.pose, *pair.sf);
       return;
@@ -66,6 +80,7 @@ class TakenOneByOne final : public mrpt::maps::CSimpleMap {
     for (std::uint32_t i = 0; i < keyframes; ++i) {
       const auto pose = archive.ReadObject<mrpt::poses::CPose3DPDF>();
       const auto frame = archive.ReadObject<mrpt::obs::CSensoryFrame>();
+      if (version == kWithTwists) pass_twist(archive);
       if (!pose || !frame) throw std::runtime_error("a keyframe without pose or scan");
       take(*pose, *frame);
     }
@@ -117,6 +132,7 @@ std::size_t for_each_keyframe(
     const std::filesystem::path& file,
     const std::function<void(std::size_t i, const mrpt::poses::CPose3DPDF& pose,
                              const mrpt::obs::CSensoryFrame& frame)>& take) {
+  read_later_records();
   GzInput stream(file);
   const TakenOneByOne::Take take_checked = [&](std::size_t i, const auto& pose, const auto& frame) {
     require_place(file, i, pose);

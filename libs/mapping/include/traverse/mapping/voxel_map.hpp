@@ -2,13 +2,13 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "traverse/geometry/pose3.hpp"
+#include "traverse/geometry/voxel_set.hpp"
 
 namespace traverse::mapping {
 
@@ -18,9 +18,6 @@ class VoxelMap {
  public:
   /// \param voxel_m edge of a voxel at first  \param max_points above it the voxels double
   VoxelMap(double voxel_m, std::size_t max_points);
-  VoxelMap(VoxelMap&&) noexcept;
-  VoxelMap& operator=(VoxelMap&&) noexcept;
-  ~VoxelMap();
 
   /// Adds the points of a scan in the body frame, metres.
   /// \param intensity one a point, or empty
@@ -39,8 +36,6 @@ class VoxelMap {
   void write_ply(const std::filesystem::path& file) const;
 
  private:
-  struct Occupied;
-
   void add(const Eigen::Vector3d& p_map, float intensity);
   void coarsen();
 
@@ -48,7 +43,7 @@ class VoxelMap {
   std::size_t max_points_;
   std::vector<Eigen::Vector3f> points_;
   std::vector<float> intensities_;
-  std::unique_ptr<Occupied> occupied_;
+  geometry::VoxelSet occupied_;
 };
 
 }  // namespace traverse::mapping

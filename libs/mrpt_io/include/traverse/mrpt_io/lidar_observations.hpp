@@ -21,8 +21,8 @@ class UnusableObservation : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The stored point cloud, or the one that the raw packets make; takes the points out of
-/// `observation`. \throws UnusableObservation
+/// The points that the raw packets hold; where there are none, the stored ones, which are taken out
+/// of `observation`. \throws UnusableObservation
 sensors::LidarScan take_scan(mrpt::obs::CObservationVelodyneScan& observation);
 
 /// Loads the points first where they stand in a file of their own, in `external_folder`.

@@ -11,12 +11,14 @@
 
 namespace traverse::mrpt_io {
 
-/// What MRPT 2.5's point clouds cannot hold of their points.
+/// What the point clouds that every MRPT from 2.5 to 3.1 reads, CSimplePointsMap 10, cannot hold of
+/// their points: MRPT 3 has no CPointsMapXYZI any more.
 struct PointAttributes {
   std::vector<float> time;          ///< seconds after the stamp; empty, or one a point
   std::vector<std::uint16_t> ring;  ///< empty, or one a point
+  std::vector<float> intensity;     ///< as stored; empty, or one a point
 
-  bool empty() const { return time.empty() && ring.empty(); }
+  bool empty() const { return time.empty() && ring.empty() && intensity.empty(); }
 };
 
 /// As an observation that stands beside the cloud in a sensory frame. It has no points of its own,
