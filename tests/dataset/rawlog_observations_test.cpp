@@ -1,4 +1,8 @@
+#include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <set>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,6 +19,7 @@
 
 #include "dataset/made_recordings.hpp"
 #include "dataset/rawlog_maker.hpp"
+#include "packets/made_velodyne_packet.hpp"
 #include "temporary_folder.hpp"
 
 namespace traverse::dataset {
@@ -54,6 +59,37 @@ TEST(Rawlog, AVelodyneScanKeepsPointsRingsAndTimes) {
   EXPECT_EQ(lidar->lidar->min_range_m, 0.9);
   EXPECT_EQ(lidar->lidar->ring_source, sensors::RingSource::kData);
   EXPECT_EQ(lidar->lidar->time_source, sensors::TimeSource::kData);
+}
+
+/// MRPT 2.5.8's decoder gives 16 of the 32 returns of a block, all of a packet at one time.
+TEST(Rawlog, OfVelodynePacketsEveryReturnIsAPointWithATimeOfItsOwn) {
+  for (const auto& [model, lasers] : {std::pair(0x22, 16), std::pair(0x21, 32)}) {
+    const TemporaryFolder folder;
+    CObservationVelodyneScan observation = made_velodyne(0.5, 4);  // whose points are not taken
+    observation.calibration.laser_corrections.clear();
+    for (int i = 0; i < 3; ++i) {
+      MadeVelodynePacket packet(5.0 * i, 0.4, static_cast<std::uint32_t>(1000 + 2000 * i), 0x37,
+                                static_cast<std::uint8_t>(model));
+      packet.fill(20);
+      packet.set_return(2, 7, 0, 0);
+      auto& stored = observation.scan_packets.emplace_back();
+      std::memcpy(&stored, packet.bytes().data(), sizeof(stored));
+    }
+    {
+      RawlogMaker maker(folder / "a.rawlog");
+      maker.add(observation);
+    }
+    const auto source = open(folder / "a.rawlog");
+    const auto scans = read_scans(*source);
+    ASSERT_THAT(scans, SizeIs(1));
+    const sensors::LidarScan& scan = *scans[0];
+    EXPECT_EQ(scan.size(), 3U * (12 * 32 - 1));
+    EXPECT_EQ(std::set<float>(scan.time.begin(), scan.time.end()).size(), 3U * 12 * 32 - 3);
+    EXPECT_EQ(*std::max_element(scan.ring.begin(), scan.ring.end()), lasers - 1);
+    EXPECT_NEAR(scan.time.back(), 4000e-6 + (lasers == 16 ? 1.306e-3 : 0.5426e-3), 1e-6);
+    EXPECT_EQ(source->info().rig.find("top")->lidar->rings, lasers);
+    EXPECT_THAT(skipped_in(*source), IsEmpty());
+  }
 }
 
 TEST(Rawlog, PointCloudsInTheFileOrInFilesOfTheirOwn) {

@@ -13,7 +13,10 @@
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/text_file.hpp"
 
+#include "bags/bag_writers.hpp"
 #include "made_recordings.hpp"
+#include "packets/made_capture.hpp"
+#include "packets/made_velodyne_packet.hpp"
 #include "rawlog_maker.hpp"
 #include "temporary_folder.hpp"
 
@@ -60,9 +63,44 @@ Made make(std::string_view format, const fs::path& folder) {
     files::write_text(folder / "log.txt", "# a robot\nODOM 0 1 1\nODOM 1 1 1\n");
     return {folder / "log.txt", {}};
   }
+  if (format == "packet capture") {
+    MadeVelodynePacket packet(10, 0.4, 0);
+    packet.fill(20);
+    const auto bytes = packet.bytes();
+    MadeCapture capture;
+    capture.add_datagram({bytes.begin(), bytes.end()}, 1'700'000'000'000'000'000);
+    capture.write(folder / "made.pcap");
+    return {folder / "made.pcap", {}};
+  }
   if (format == "MRPT rawlog") {
     RawlogMaker(folder / "other_name.log").add(made_imu(0));
     return {folder / "other_name.log", {}};
+  }
+  const std::vector<MadeMessage> messages{
+      {"/imu", "sensor_msgs/Imu", 1'000'000'000,
+       imu_message(format.starts_with("ROS 1") ? Wire::kRos1 : Wire::kCdr, 1'000'000'000, "imu",
+                   {0, 0, 0}, {0, 0, 9.81})}};
+  if (format == "ROS 1 bag") {
+    write_ros1_bag(folder / "other_name.dat", messages);
+    return {folder / "other_name.dat", {}};
+  }
+  if (format == "ROS 1 bags") {
+    fs::create_directories(folder / "bags");
+    write_ros1_bag(folder / "bags/0.bag", messages);
+    return {folder / "bags", {}};
+  }
+  if (format == "ROS 2 bag") {
+    write_ros2_bag(folder / "bag", messages);
+    return {folder / "bag", {}};
+  }
+  if (format == "ROS 2 database") {
+    write_ros2_bag(folder / "bag", messages);
+    fs::copy_file(folder / "bag/bag_0.db3", folder / "other_name");
+    return {folder / "other_name", {}};
+  }
+  if (format == "MCAP") {
+    write_mcap(folder / "other_name", messages);
+    return {folder / "other_name", {}};
   }
   throw std::invalid_argument("no recording of the format " + std::string(format) + " is made");
 }
@@ -96,7 +134,7 @@ TEST(RecordingFormats, AnUnknownRecordingIsToldAllThatItCouldBe) {
   }
   EXPECT_THAT(opening_error(folder / "a.txt"),
               HasSubstr("found a file that begins with 'Dear diary'; `traverse info --formats`"));
-  EXPECT_THAT(opening_error(folder / "b.bin"), HasSubstr("found a file that begins with"));
+  EXPECT_THAT(opening_error(folder / "b.bin"), HasSubstr("found an archive or compressed file"));
   EXPECT_THAT(opening_error(folder / "c.txt"), HasSubstr("found an empty file"));
 }
 

@@ -208,7 +208,7 @@ TEST(TextKinds, EurocImuFilesOpenByTheirHeader) {
   EXPECT_NEAR(sample.stamp.seconds(), 1403636579.758555392, 1e-6);
   EXPECT_NEAR(sample.angular_rate.x(), -0.1, 1e-12);
   EXPECT_NEAR(sample.specific_force.x(), 8.1, 1e-12);
-  EXPECT_EQ(fact_reason(*source, "imu file"), "the header is that of a EuRoC imu0/data.csv");
+  EXPECT_EQ(fact_reason(*source, "imu file"), "by the names of its columns");
   EXPECT_EQ(fact_value(*source, "data.csv, unit of the time"), "ns");
 }
 

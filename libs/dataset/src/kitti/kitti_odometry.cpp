@@ -2,6 +2,8 @@
 #include <utility>
 
 #include "kitti/kitti_bin.hpp"
+#include "kitti/kitti_lidar.hpp"
+#include "navigation_log/tables_beside.hpp"
 #include "recording/folder_opening.hpp"
 #include "recording/stamp_files.hpp"
 #include "recording/unused_files.hpp"
@@ -38,10 +40,6 @@ std::unique_ptr<Source> open_kitti_odometry(const fs::path& folder, const OpenOp
   set_motion_compensation(info, statements, true,
                           "scans of the KITTI odometry benchmark are motion-compensated");
 
-  ProfileChoice profile = installed_profile(options.share_folder, "hdl64e_kitti");
-  profile.reason += ", default for KITTI";
-  mount_lidar(info, kVelodyne, choose_profile(statements, options.share_folder, std::move(profile)),
-              statements);
   recording.lidar = kVelodyne;
 
   const std::vector<fs::path> files = files_with_extension(folder / "velodyne", ".bin");
@@ -56,14 +54,12 @@ std::unique_ptr<Source> open_kitti_odometry(const fs::path& folder, const OpenOp
     pose_stamps = stamps_of(recording.scans);
   }
   info.expected_scans = recording.scans.size();
+  recording.read = mount_kitti_lidar(info, files, recording.scans, statements, options);
 
   set_camera(info, statements, folder / "calib.txt");
   recording.reference = choose_reference(info, statements, find_poses(folder), pose_stamps);
+  add_tables(recording, folder, statements);
   note_unused_files(info, options, recording.reference, pose_stamps.size());
-  recording.read = [layout = statements->bin,
-                    unit_m = statements->point_unit_m](const ScanFile& scan) {
-    return in_metres(read_kitti_bin(scan.file, layout), unit_m);
-  };
   return make_folder_source(std::move(recording));
 }
 

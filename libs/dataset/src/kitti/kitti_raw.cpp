@@ -7,6 +7,7 @@
 #include "traverse/files/input_error.hpp"
 
 #include "kitti/kitti_bin.hpp"
+#include "kitti/kitti_lidar.hpp"
 #include "kitti/oxts.hpp"
 #include "recording/folder_opening.hpp"
 #include "recording/stamp_files.hpp"
@@ -129,10 +130,6 @@ std::unique_ptr<Source> open_kitti_raw(const fs::path& folder, const OpenOptions
   info = begin_info(folder, format, statements, "lidar");
   set_motion_compensation(info, statements, false, "scans of KITTI raw are as measured");
 
-  ProfileChoice profile = installed_profile(options.share_folder, "hdl64e_kitti");
-  profile.reason += ", default for KITTI";
-  mount_lidar(info, kVelodyne, choose_profile(statements, options.share_folder, std::move(profile)),
-              statements);
   recording.lidar = kVelodyne;
 
   const fs::path points = folder / "velodyne_points";
@@ -149,6 +146,7 @@ std::unique_ptr<Source> open_kitti_raw(const fs::path& folder, const OpenOptions
     recording.scans = stamp_by_period(files, statements, info.facts);
   }
   info.expected_scans = recording.scans.size();
+  recording.read = mount_kitti_lidar(info, files, recording.scans, statements, options);
   set_raw_camera(info, statements, folder);
 
   OxtsStream oxts = read_oxts(folder / "oxts", stamps[1].sequence.records, folder, info.facts);
@@ -166,10 +164,6 @@ std::unique_ptr<Source> open_kitti_raw(const fs::path& folder, const OpenOptions
   }
   note_unused_files(info, options, recording.reference, info.expected_scans);
   recording.others = std::move(oxts.records);
-  recording.read = [layout = statements->bin,
-                    unit_m = statements->point_unit_m](const ScanFile& scan) {
-    return in_metres(read_kitti_bin(scan.file, layout), unit_m);
-  };
   return make_folder_source(std::move(recording));
 }
 

@@ -16,7 +16,9 @@
 
 #include "kitti/regular_clock.hpp"
 #include "navigation_log/csv_rows.hpp"
+#include "navigation_log/known_columns.hpp"
 #include "navigation_log/navigation_log.hpp"
+#include "navigation_log/tables_beside.hpp"
 #include "recording/folder_opening.hpp"
 #include "recording/listed_source.hpp"
 #include "recording/stamp_sequence.hpp"
@@ -38,14 +40,6 @@ constexpr const char* kImuTable = "imu";
 constexpr const char* kFixTable = "gnss";
 constexpr const char* kWheelTable = "wheels";
 
-/// The files of a folder whose header tells what they hold, where nothing is stated.
-std::optional<CsvStatements> found_statements(const fs::path& folder) {
-  for (const fs::path& file : files_with_extension(folder, ".csv")) {
-    if (auto statements = euroc_imu_statements(file)) return statements;
-  }
-  return std::nullopt;
-}
-
 bool is_empty(const CsvStatements& csv) {
   return csv.gyro.file.empty() && csv.accelerometer.file.empty() && csv.gnss.file.empty() &&
          csv.wheels.file.empty();
@@ -57,11 +51,13 @@ class CsvRecording {
   CsvRecording(const fs::path& folder, const Statements& statements)
       : statements_(statements), csv_(statements->csv), stated_(statements->imu, statements->gnss) {
     if (is_empty(csv_)) {
-      if (const auto found = found_statements(folder)) {
-        csv_.gyro = found->gyro;
-        csv_.accelerometer = found->accelerometer;
-        reason_unstated_ = "the header is that of a EuRoC imu0/data.csv";
-      }
+      const KnownTables known = known_tables(folder);
+      csv_.gyro = known.csv.gyro;
+      csv_.accelerometer = known.csv.accelerometer;
+      csv_.gnss = known.csv.gnss;
+      csv_.wheels = known.csv.wheels;
+      not_understood_ = known.not_understood;
+      reason_unstated_ = "by the names of its columns";
     }
     if (csv_.gyro.file.empty() != csv_.accelerometer.file.empty()) {
       throw statements_.error("csv.gyro.file", "gyro and accelerometer, or neither", "one of them");
@@ -158,6 +154,9 @@ class CsvRecording {
     facts.push_back({"reference frame", reference.description, reason("csv.reference.columns")});
     return reference;
   }
+
+  /// A table whose name is known and whose columns are not; empty: none.
+  const std::string& not_understood() const { return not_understood_; }
 
   std::string reason(const char* key) const { return statements_.reason(key, reason_unstated_); }
 
@@ -280,6 +279,7 @@ class CsvRecording {
   CsvStatements csv_;
   StatedMeasurements stated_;
   std::string reason_unstated_ = "default";
+  std::string not_understood_;
   std::optional<CsvRows> gyro_;
   std::optional<CsvRows> accelerometer_;
   std::optional<CsvRows> gnss_;
@@ -287,20 +287,8 @@ class CsvRecording {
   std::optional<CsvRows> reference_;
 };
 
-std::string how_to_state(const fs::path& folder, const fs::path& share_folder) {
-  const auto fitting = fitting_statements(folder, share_folder);
-  if (fitting.empty()) return "give a file with --recording-config, see share/recordings";
-  return fmt::format("{} fits these files: --recording-config {}",
-                     fitting.front().filename().string(), fitting.front().string());
-}
-
-}  // namespace
-
-std::unique_ptr<Source> open_csv_folder(const fs::path& folder, const OpenOptions& options,
-                                        std::string_view format) {
-  const Statements statements(folder / "traverse.yaml", options, folder);
-  RecordingInfo info = begin_info(folder, format, statements, "vehicle");
-  CsvRecording recording(folder, statements);
+/// The sensors of the tables, with the facts about them.
+void mount_tables(CsvRecording& recording, const Statements& statements, RecordingInfo& info) {
   recording.make_imu();
   recording.make_gnss();
   recording.make_wheels();
@@ -316,9 +304,30 @@ std::unique_ptr<Source> open_csv_folder(const fs::path& folder, const OpenOption
                                            : kind == SensorKind::kGnss ? "csv.gnss.file"
                                                                        : "csv.wheels.file")});
   }
+}
+
+std::string how_to_state(const fs::path& folder, const fs::path& share_folder) {
+  const auto fitting = fitting_statements(folder, share_folder);
+  if (fitting.empty()) return "give a file with --recording-config, see share/recordings";
+  return fmt::format("{} fits these files: --recording-config {}",
+                     fitting.front().filename().string(), fitting.front().string());
+}
+
+}  // namespace
+
+std::unique_ptr<Source> open_csv_folder(const fs::path& folder, const OpenOptions& options,
+                                        std::string_view format) {
+  const Statements statements(folder / "traverse.yaml", options, folder);
+  RecordingInfo info = begin_info(folder, format, statements, "vehicle");
+  CsvRecording recording(folder, statements);
+  mount_tables(recording, statements, info);
   if (info.rig.sensors.empty()) {
     throw InputError(folder, Place::key("csv"), "statements that tell what the CSV files hold",
-                     "none; " + how_to_state(folder, options.share_folder));
+                     (recording.not_understood().empty()
+                          ? "none; "
+                          : fmt::format("none, and the columns of {} are called as no sensor's; ",
+                                        recording.not_understood())) +
+                         how_to_state(folder, options.share_folder));
   }
   auto reference = recording.make_reference();
   info.facts.insert(info.facts.end(), recording.facts.begin(), recording.facts.end());
@@ -327,6 +336,21 @@ std::unique_ptr<Source> open_csv_folder(const fs::path& folder, const OpenOption
   }
   note_unused_files(info, options, reference, 0);
   return make_listed_source(std::move(info), std::move(recording.records), std::move(reference));
+}
+
+void add_tables(FolderRecording& recording, const fs::path& folder, const Statements& statements) {
+  RecordingInfo& info = recording.info;
+  CsvRecording tables(folder, statements);
+  mount_tables(tables, statements, info);
+  if (!tables.not_understood().empty()) {
+    info.facts.push_back(
+        {kNotUsed, tables.not_understood(),
+         "its columns are called as no sensor's: state them, csv.gyro.columns and so on"});
+  }
+  auto reference = tables.make_reference();
+  info.facts.insert(info.facts.end(), tables.facts.begin(), tables.facts.end());
+  if (!recording.reference) recording.reference = std::move(reference);
+  take_records(recording, std::move(tables.records));
 }
 
 }  // namespace traverse::dataset

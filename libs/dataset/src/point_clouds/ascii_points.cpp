@@ -33,8 +33,7 @@ std::size_t count_words(std::string_view line) {
 
 }  // namespace
 
-void read_ascii_points(FileCursor& file, std::size_t points,
-                       const std::vector<AsciiColumn>& columns) {
+void read_ascii_points(FileCursor& file, std::size_t points, std::vector<AsciiColumn>& columns) {
   std::size_t words_a_line = 0;
   for (const AsciiColumn& column : columns) words_a_line += column.words;
 
@@ -46,9 +45,13 @@ void read_ascii_points(FileCursor& file, std::size_t points,
                        fmt::format("{}", count_words(line)));
     }
     std::size_t word = 0;
-    for (const AsciiColumn& column : columns) {
-      if (column.values != nullptr && !parse_into(*column.values, i, words[word])) {
-        throw file.error("a number of the field's type", files::in_quotes(words[word]));
+    for (AsciiColumn& column : columns) {
+      const bool is_read = column.values != nullptr && !column.is_left_out;
+      if (is_read && !parse_into(*column.values, i, words[word])) {
+        if (!column.may_hold_other_text) {
+          throw file.error("a number of the field's type", files::in_quotes(words[word]));
+        }
+        column.is_left_out = true;
       }
       word += column.words;
     }

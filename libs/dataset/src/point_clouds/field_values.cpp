@@ -119,6 +119,13 @@ void PointCloud::add(std::string name, FieldValues values) {
   fields_.push_back({std::move(name), std::move(values)});
 }
 
+void PointCloud::set_rows(std::size_t rows) {
+  if (rows == 0 || size() % rows != 0) {
+    throw std::invalid_argument(fmt::format("{} points in {} rows", size(), rows));
+  }
+  rows_ = rows;
+}
+
 const FieldValues* PointCloud::find(std::string_view name) const {
   const auto found = std::find_if(fields_.begin(), fields_.end(),
                                   [&](const Field& field) { return field.name == name; });

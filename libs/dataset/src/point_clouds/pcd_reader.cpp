@@ -15,6 +15,7 @@
 #include "point_clouds/ascii_points.hpp"
 #include "point_clouds/field_values.hpp"
 #include "point_clouds/pcd.hpp"
+#include "point_clouds/point_names.hpp"
 
 namespace traverse::dataset {
 
@@ -30,13 +31,29 @@ struct PcdField {
   std::size_t count = 1;
 
   std::size_t size() const { return bytes * count; }
-  /// "_" is padding; several values a point (a histogram) do not fit a PointCloud.
-  bool is_used() const { return count == 1 && name != "_"; }
+  /// "_" is padding; several values a point (a histogram) do not fit a PointCloud. A type that is
+  /// none counts where the field may be needed.
+  bool is_used() const;
 };
+
+const std::map<std::pair<char, std::size_t>, ScalarType>& pcd_types() {
+  static const std::map<std::pair<char, std::size_t>, ScalarType> kTypes{
+      {{'I', 1}, ScalarType::kInt8},  {{'U', 1}, ScalarType::kUint8},
+      {{'I', 2}, ScalarType::kInt16}, {{'U', 2}, ScalarType::kUint16},
+      {{'I', 4}, ScalarType::kInt32}, {{'U', 4}, ScalarType::kUint32},
+      {{'I', 8}, ScalarType::kInt64}, {{'U', 8}, ScalarType::kUint64},
+      {{'F', 4}, ScalarType::kFloat}, {{'F', 8}, ScalarType::kDouble}};
+  return kTypes;
+}
+
+bool PcdField::is_used() const {
+  return count == 1 && name != "_" && (pcd_types().contains({type, bytes}) || may_be_needed(name));
+}
 
 struct PcdHeader {
   std::vector<PcdField> fields;
   std::size_t points = 0;
+  std::size_t rows = 1;  ///< HEIGHT, where it fits the points
   std::string data;
 
   std::size_t point_bytes() const {
@@ -121,6 +138,10 @@ PcdHeader read_pcd_header(FileCursor& file) {
       header.data = words[1];
       if (header.fields.empty()) throw file.error("FIELDS before DATA", "none");
       if (!has_points) header.points = product_of(file, width, height);
+      if (height > 0 && width > 0 && header.points / height == width &&
+          header.points % height == 0) {
+        header.rows = height;
+      }
       return header;
     } else if (key != "VERSION" && key != "VIEWPOINT") {
       throw file.error("a key of the PCD header", files::in_quotes(key));
@@ -130,14 +151,8 @@ PcdHeader read_pcd_header(FileCursor& file) {
 }
 
 ScalarType scalar_type(const FileCursor& file, const PcdField& field) {
-  static const std::map<std::pair<char, std::size_t>, ScalarType> kTypes{
-      {{'I', 1}, ScalarType::kInt8},  {{'U', 1}, ScalarType::kUint8},
-      {{'I', 2}, ScalarType::kInt16}, {{'U', 2}, ScalarType::kUint16},
-      {{'I', 4}, ScalarType::kInt32}, {{'U', 4}, ScalarType::kUint32},
-      {{'I', 8}, ScalarType::kInt64}, {{'U', 8}, ScalarType::kUint64},
-      {{'F', 4}, ScalarType::kFloat}, {{'F', 8}, ScalarType::kDouble}};
-  const auto found = kTypes.find({field.type, field.bytes});
-  if (found == kTypes.end()) {
+  const auto found = pcd_types().find({field.type, field.bytes});
+  if (found == pcd_types().end()) {
     throw InputError(file.path(), Place::key(field.name), "TYPE and SIZE of a number",
                      fmt::format("{} {}", field.type, field.bytes));
   }
@@ -228,6 +243,7 @@ PointCloud decode_fields(const FileCursor& file, const PcdHeader& header,
     decode(values, data.data() + layout[i].first, layout[i].stride, false);
     cloud.add(field.name, std::move(values));
   }
+  if (!cloud.fields().empty()) cloud.set_rows(header.rows);
   return cloud;
 }
 
@@ -242,13 +258,16 @@ PointCloud read_ascii(FileCursor& file, const PcdHeader& header) {
   for (const PcdField& field : header.fields) {
     values.push_back(field.is_used() ? make_values(scalar_type(file, field), header.points)
                                      : FieldValues());
-    columns.push_back({field.count, field.is_used() ? &values.back() : nullptr});
+    columns.push_back(
+        {field.count, field.is_used() ? &values.back() : nullptr, !may_be_needed(field.name)});
   }
   read_ascii_points(file, header.points, columns);
   PointCloud cloud;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (columns[i].values != nullptr) cloud.add(header.fields[i].name, std::move(values[i]));
+    if (columns[i].values != nullptr && !columns[i].is_left_out)
+      cloud.add(header.fields[i].name, std::move(values[i]));
   }
+  if (!cloud.fields().empty()) cloud.set_rows(header.rows);
   return cloud;
 }
 

@@ -8,6 +8,7 @@
 #include "point_clouds/ascii_points.hpp"
 #include "point_clouds/field_values.hpp"
 #include "point_clouds/ply.hpp"
+#include "point_clouds/point_names.hpp"
 
 namespace traverse::dataset {
 
@@ -171,14 +172,16 @@ PointCloud read_points(FileCursor& file, const PlyElement& vertex, PlyFormat for
                      fmt::format("{} bytes", available));
   }
 
+  std::vector<AsciiColumn> columns;
   std::vector<FieldValues> values;
   values.reserve(vertex.properties.size());
   for (const PlyProperty& property : vertex.properties) {
     values.push_back(make_values(property.type, vertex.count));
   }
   if (ascii) {
-    std::vector<AsciiColumn> columns;
-    for (FieldValues& column : values) columns.push_back({1, &column});
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      columns.push_back({1, &values[i], !may_be_needed(vertex.properties[i].name)});
+    }
     read_ascii_points(file, vertex.count, columns);
   } else {
     std::size_t offset = 0;
@@ -190,6 +193,7 @@ PointCloud read_points(FileCursor& file, const PlyElement& vertex, PlyFormat for
 
   PointCloud cloud;
   for (std::size_t i = 0; i < values.size(); ++i) {
+    if (ascii && columns[i].is_left_out) continue;
     cloud.add(vertex.properties[i].name, std::move(values[i]));
   }
   return cloud;

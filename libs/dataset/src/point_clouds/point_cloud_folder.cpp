@@ -1,25 +1,23 @@
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "traverse/files/input_error.hpp"
-#include "traverse/files/numbers.hpp"
-#include "traverse/statistics/quantile.hpp"
-
-#include "point_clouds/cloud_scan.hpp"
-#include "point_clouds/field_values.hpp"
+#include "navigation_log/tables_beside.hpp"
+#include "point_clouds/bin_points.hpp"
+#include "point_clouds/cloud_lidar.hpp"
+#include "point_clouds/name_stamps.hpp"
 #include "recording/folder_opening.hpp"
 #include "recording/stamp_files.hpp"
 #include "recording/unused_files.hpp"
 
 namespace traverse::dataset {
-
-using files::InputError;
-using geometry::Stamp;
 
 namespace {
 
@@ -27,33 +25,26 @@ namespace fs = std::filesystem;
 
 constexpr const char* kLidar = "lidar";
 
-/// A stamp written as a file's name: seconds with decimals, or whole nanoseconds or microseconds
-/// told apart by their size. Smaller whole numbers are counts, not times.
-std::optional<StampText> stamp_in_name(const std::string& name) {
-  const auto whole = files::parse_integer(name);
-  if (!whole && name.find('.') == std::string::npos) return std::nullopt;
-  if (whole) {
-    const auto unit = geometry::unix_time_unit(static_cast<double>(*whole));
-    if (!unit || *unit < geometry::UnixTimeUnit::kMicroseconds) return std::nullopt;
-  }
-  return parse_stamp(name);
+/// The name without ".pcd", ".ply" or ".bin"; nuScenes has ".pcd.bin".
+std::string name_of_scan(const fs::path& file) {
+  fs::path stem = file.stem();
+  if (stem.extension() == ".pcd") stem = stem.stem();
+  return stem.string();
 }
 
 std::optional<std::vector<ScanFile>> stamp_by_name(const std::vector<fs::path>& files,
                                                    std::vector<Fact>& facts) {
+  std::vector<std::string> names;
+  for (const fs::path& file : files) names.push_back(name_of_scan(file));
+  const auto found = stamps_in_names(names);
+  if (!found) return std::nullopt;
   std::vector<ScanFile> scans;
-  std::string form;
-  for (const fs::path& file : files) {
-    const auto stamp = stamp_in_name(file.stem().string());
-    if (!stamp) return std::nullopt;
-    if (form.empty()) form = stamp->form;
-    scans.push_back({file, stamp->stamp});
-  }
+  for (std::size_t i = 0; i < files.size(); ++i) scans.push_back({files[i], found->stamps[i]});
   std::stable_sort(scans.begin(), scans.end(), [](const ScanFile& a, const ScanFile& b) {
     return a.stamp->nanoseconds < b.stamp->nanoseconds;
   });
   facts.push_back({"scan stamps", "the files' names",
-                   fmt::format("they are times ({}); there is no times file", form)});
+                   fmt::format("they are times ({}); there is no times file", found->form)});
   SensorStamps sensor{"scans", StampSequence::of(stamps_of(scans)),
                       [&](std::size_t scan) { return scans[scan].file.filename().string(); }};
   settle_steps(std::span(&sensor, 1), facts);
@@ -62,6 +53,11 @@ std::optional<std::vector<ScanFile>> stamp_by_name(const std::vector<fs::path>& 
     scans[i] = {scans[i].file, record.stamp, record.fault};
   }
   return scans;
+}
+
+bool is_bin(const fs::path& file) {
+  const std::string extension = file.extension().string();
+  return extension.size() == 4 && (extension[1] == 'b' || extension[1] == 'B');
 }
 
 std::vector<ScanFile> stamp_scans(const fs::path& folder, const std::vector<fs::path>& files,
@@ -77,92 +73,31 @@ std::vector<ScanFile> stamp_scans(const fs::path& folder, const std::vector<fs::
   return stamp_by_period(files, statements, facts);
 }
 
+constexpr std::array<std::string_view, 3> kExtensions{".pcd", ".ply", ".bin"};
+
 /// The files of the kind that there are most of.
 std::vector<fs::path> find_clouds(const fs::path& folder, std::vector<Fact>& facts) {
-  std::vector<fs::path> pcd = files_with_extension(folder, ".pcd");
-  std::vector<fs::path> ply = files_with_extension(folder, ".ply");
-  const bool take_pcd = pcd.size() >= ply.size();
-  const std::size_t left = take_pcd ? ply.size() : pcd.size();
-  if (left > 0) {
-    facts.push_back({"files left out", fmt::format("{} {}", left, take_pcd ? "PLY" : "PCD"),
-                     take_pcd ? "there are at least as many PCD" : "there are more PLY"});
-  }
-  return take_pcd ? pcd : ply;
-}
-
-/// The last scan that can be read: it shows what the recording's files hold.
-struct Example {
-  PointCloud cloud;
-  sensors::LidarScan scan;
-};
-
-Example find_example(const fs::path& folder, const std::vector<ScanFile>& scans) {
-  constexpr std::size_t kMaxWithOneTime = 5;  // then the field tells no times
-  std::string fault = "none";
-  std::optional<Example> with_one_time;
-  std::size_t count_with_one_time = 0;
-  for (auto scan = scans.rbegin(); scan != scans.rend(); ++scan) {
-    if (!scan->stamp) continue;
-    try {
-      Example example{read_point_cloud(scan->file), {}};
-      example.scan = scan_from_cloud(example.cloud, *scan->stamp, std::nullopt, scan->file);
-      if (!example.scan.empty() && !has_one_time(example.cloud)) return example;
-      if (example.scan.empty()) {
-        fault = "clouds without points";
-        continue;
-      }
-      if (!with_one_time) with_one_time = std::move(example);
-      if (++count_with_one_time == kMaxWithOneTime) break;
-    } catch (const InputError& error) {
-      fault = error.what();
+  std::vector<fs::path> taken;
+  std::vector<std::string> left;
+  std::string_view taken_extension;
+  for (const std::string_view extension : kExtensions) {
+    std::vector<fs::path> found = files_with_extension(folder, extension);
+    if (found.empty()) continue;
+    std::size_t passed = found.size();
+    std::string_view passed_extension = extension;
+    if (found.size() > taken.size()) {
+      passed = taken.size();
+      passed_extension = taken_extension;
+      taken = std::move(found);
+      taken_extension = extension;
     }
+    if (passed > 0) left.push_back(fmt::format("{} *{}", passed, passed_extension));
   }
-  if (with_one_time) return std::move(*with_one_time);
-  throw InputError(folder, files::Place::whole_file(),
-                   "a point cloud with a stamp that can be read", fault);
-}
-
-double intensity_full_scale(const FieldValues& field) {
-  switch (type_of(field)) {
-    case ScalarType::kUint8:
-      return 255;
-    case ScalarType::kUint16:
-      return 65535;
-    default: {
-      const std::vector<double> values = to_doubles(field);
-      return *std::max_element(values.begin(), values.end()) <= 1 ? 1 : 255;
-    }
+  if (!left.empty()) {
+    facts.push_back({"files left out", fmt::format("{}", fmt::join(left, ", ")),
+                     fmt::format("there are {} *{}", taken.size(), taken_extension)});
   }
-}
-
-/// From one scan to the next, in the median.
-double interval_of(const std::vector<ScanFile>& scans, double otherwise) {
-  std::vector<double> intervals;
-  std::optional<Stamp> last;
-  for (const ScanFile& scan : scans) {
-    if (scan.stamp && last) intervals.push_back(geometry::seconds_between(*last, *scan.stamp));
-    if (scan.stamp) last = scan.stamp;
-  }
-  if (intervals.empty()) return otherwise;
-  const double median = statistics::median(intervals);
-  return median > 0 ? median : otherwise;
-}
-
-/// What the files themselves tell about the lidar.
-ProfileChoice profile_from(const Example& example, bool has_time) {
-  ProfileChoice choice;
-  choice.reason = "default; from the fields of the last scan";
-  choice.profile.time_source = has_time ? sensors::TimeSource::kData : sensors::TimeSource::kNone;
-  const std::vector<std::uint16_t>& rings = example.scan.ring;
-  if (rings.empty()) {
-    choice.reason += ", which have no ring number";
-  } else {
-    choice.profile.rings = *std::max_element(rings.begin(), rings.end()) + 1;
-  }
-  if (const FieldValues* intensity = intensity_of(example.cloud)) {
-    choice.profile.intensity_full_scale = intensity_full_scale(*intensity);
-  }
-  return choice;
+  return taken;
 }
 
 }  // namespace
@@ -178,28 +113,21 @@ std::unique_ptr<Source> open_point_cloud_folder(const fs::path& folder, const Op
   const std::vector<fs::path> files = find_clouds(folder, info.facts);
   recording.scans = stamp_scans(folder, files, statements, info.facts);
   info.expected_scans = recording.scans.size();
-  const Example example = find_example(folder, recording.scans);
-  PointTimeHints hints;
-  hints.scan_interval_s = interval_of(recording.scans, statements->period_s);
-  if (const auto origin = statements.origin("point_time_unit_s")) {
-    hints.stated_unit_s = statements->point_time_unit_s;
-    hints.stated_in = *origin;
+  CloudReader read = read_point_cloud;
+  if (is_bin(files.front())) {
+    read = [layout = bin_layout(files, statements, info.facts)](const fs::path& file) {
+      return read_bin_points(file, layout);
+    };
   }
-  const auto time = find_point_time(example.cloud, example.scan.stamp, hints, info.facts);
-  mount_lidar(
-      info, kLidar,
-      choose_profile(statements, options.share_folder, profile_from(example, time.has_value())),
-      statements);
+  recording.read =
+      mount_cloud_lidar(info, kLidar, recording.scans, std::move(read), statements, options);
   recording.lidar = kLidar;
 
   set_camera(info, statements, folder / "calib.txt");
   recording.reference =
       choose_reference(info, statements, std::nullopt, stamps_of(recording.scans));
+  add_tables(recording, folder, statements);
   note_unused_files(info, options, recording.reference, info.expected_scans);
-  recording.read = [time, unit_m = statements->point_unit_m](const ScanFile& scan) {
-    return in_metres(scan_from_cloud(read_point_cloud(scan.file), *scan.stamp, time, scan.file),
-                     unit_m);
-  };
   return make_folder_source(std::move(recording));
 }
 

@@ -21,7 +21,8 @@ struct FolderBookmark : Bookmark {
 
 class FolderSource : public Source {
  public:
-  explicit FolderSource(FolderRecording recording) : recording_(std::move(recording)) {}
+  explicit FolderSource(FolderRecording recording)
+      : recording_(std::move(recording)), skipped_(recording_.skipped) {}
 
   const RecordingInfo& info() const override { return recording_.info; }
   const SkippedRecords& skipped() const override { return skipped_; }
@@ -38,7 +39,7 @@ class FolderSource : public Source {
   void rewind() override {
     next_scan_ = 0;
     next_other_ = 0;
-    skipped_ = {};
+    skipped_ = recording_.skipped;
   }
 
   std::optional<double> share_read() const override {

@@ -29,6 +29,7 @@ struct FolderRecording {
   /// Reads one file into a scan. \throws files::InputError if it cannot be used.
   std::function<sensors::LidarScan(const ScanFile&)> read;
   std::vector<SideRecord> others;  ///< in the order of their stamps
+  SkippedRecords skipped;          ///< while they were read
   std::optional<Reference> reference;
 };
 

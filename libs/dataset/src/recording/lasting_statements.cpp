@@ -14,7 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Keys whose values may be files outside the recording's folder.
-constexpr std::array<std::string_view, 3> kFileKeys{"reference.file", "calibration", "sensor"};
+constexpr std::array<std::string_view, 4> kFileKeys{"reference.file", "calibration", "sensor",
+                                                    "lidar.metadata"};
 
 /// The file's absolute path, if `value` names one that is not beside the recording.
 std::optional<std::string> file_elsewhere(const config::Leaf& leaf, const fs::path& folder) {

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "recording/folder_source.hpp"
 #include "recording/stamp_sequence.hpp"
 
 namespace traverse::dataset {
@@ -129,6 +130,16 @@ std::unique_ptr<Source> make_listed_source(RecordingInfo info, ListedRecords rec
   if (records.stamps_ == ListedRecords::Stamps::kAsRecorded) records.settle(info.facts);
   return std::make_unique<ListedSource>(std::move(info), std::move(records.measurements_),
                                         std::move(records.skipped_), std::move(reference));
+}
+
+void take_records(FolderRecording& recording, ListedRecords records) {
+  for (sensors::Measurement& measurement : records.measurements_) {
+    const geometry::Stamp stamp = sensors::stamp_of(measurement);
+    recording.others.push_back({std::move(measurement), stamp, "", ""});
+  }
+  std::stable_sort(recording.others.begin(), recording.others.end(),
+                   [](const SideRecord& a, const SideRecord& b) { return a.stamp < b.stamp; });
+  recording.skipped = std::move(records.skipped_);
 }
 
 }  // namespace traverse::dataset

@@ -12,6 +12,8 @@
 
 namespace traverse::dataset {
 
+struct FolderRecording;
+
 /// The lines of a recording that is read as a whole. Of a line that is no measurement only the
 /// count of its kind is kept, so that memory does not grow with what is of no use.
 class ListedRecords {
@@ -32,6 +34,7 @@ class ListedRecords {
  private:
   friend std::unique_ptr<Source> make_listed_source(RecordingInfo info, ListedRecords records,
                                                     std::optional<Reference> reference);
+  friend void take_records(FolderRecording& recording, ListedRecords records);
 
   /// Makes the stamps of each sensor grow, as the lines stand.
   void settle(std::vector<Fact>& facts);
@@ -47,5 +50,8 @@ class ListedRecords {
 /// counts before all else.
 std::unique_ptr<Source> make_listed_source(RecordingInfo info, ListedRecords records,
                                            std::optional<Reference> reference);
+
+/// Puts records whose stamps grow already among those beside the scans of a folder.
+void take_records(FolderRecording& recording, ListedRecords records);
 
 }  // namespace traverse::dataset

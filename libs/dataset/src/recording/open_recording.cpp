@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "traverse/dataset/foreign_file.hpp"
 #include "traverse/dataset/recording_formats.hpp"
 #include "traverse/files/input_error.hpp"
 
@@ -54,6 +55,14 @@ std::string found_in_file(const fs::path& file) {
   return start.empty() ? "an empty file" : "a file that begins with " + files::in_quotes(start);
 }
 
+/// What stands there in place of a recording, and what to do about it where that is known.
+std::string found_instead(const fs::path& path, bool is_folder) {
+  if (const auto foreign = foreign_format(path)) {
+    return fmt::format("{}: {}", foreign->name, foreign->action);
+  }
+  return is_folder ? found_in_folder(path) : found_in_file(path);
+}
+
 std::unique_ptr<Source> open_by_format(const fs::path& path, const OpenOptions& options) {
   const bool is_folder = fs::is_directory(path);
   if (is_folder) refuse_results(path);
@@ -62,9 +71,9 @@ std::unique_ptr<Source> open_by_format(const fs::path& path, const OpenOptions& 
       return format.open(path, options, format.name);
     }
   }
-  throw InputError(path, Place::whole_file(), known_formats(is_folder),
-                   (is_folder ? found_in_folder(path) : found_in_file(path)) +
-                       "; `traverse info --formats` tells more of each");
+  throw InputError(
+      path, Place::whole_file(), known_formats(is_folder),
+      found_instead(path, is_folder) + "; `traverse info --formats` tells more of each");
 }
 
 }  // namespace

@@ -185,6 +185,12 @@ double RecordingSurvey::duration_s() const {
 
 RecordingSurvey survey(Source& source,
                        const std::function<void(const sensors::Measurement&)>& progress) {
+  return survey(source, progress, [](const sensors::Measurement&) { return true; });
+}
+
+RecordingSurvey survey(Source& source,
+                       const std::function<void(const sensors::Measurement&)>& progress,
+                       const std::function<bool(const sensors::Measurement&)>& goes_on) {
   std::vector<StreamTally> tallies;
   std::map<std::string, std::size_t> index_of;
   while (const auto measurement = source.next()) {
@@ -193,6 +199,7 @@ RecordingSurvey survey(Source& source,
     if (is_new) tallies.push_back({sensor, kind_of(*measurement), {}, nullptr});
     add(tallies[known->second], *measurement, source.info().rig);
     progress(*measurement);
+    if (!goes_on(*measurement)) break;
   }
   RecordingSurvey result;
   for (const StreamTally& tally : tallies) result.streams.push_back(tally.finish());

@@ -20,9 +20,14 @@ constexpr std::array<std::pair<std::string_view, ReferenceFrame>, 3> kFrames{
      {"lidar", ReferenceFrame::kLidar},
      {"camera", ReferenceFrame::kCamera}}};
 
-void bind_profile(Binder& b, sensors::LidarProfile& profile) {
-  b.group("lidar", "over the sensor profile",
-          [&](Binder& lidar) { sensors::bind(lidar, profile); });
+void bind_lidar(Binder& b, sensors::LidarProfile& profile, PointFieldStatements& points,
+                std::string& topic, std::string& metadata) {
+  b.group("lidar", "over the sensor profile, and the fields of its points", [&](Binder& lidar) {
+    sensors::bind(lidar, profile);
+    bind(lidar, points);
+    lidar.text("topic", topic, "of a bag");
+    lidar.text("metadata", metadata, "of an Ouster whose packets these are: its JSON file");
+  });
 }
 
 }  // namespace
@@ -43,6 +48,7 @@ void bind(Binder& b, StatedValues& v) {
     reference.text("file", v.reference_file, "relative to the recording's folder");
     reference.choice("format", v.reference_format, kTrajectoryFormatNames, "of the file");
     reference.choice("frame", v.reference_frame, kFrames, "whose poses the file holds");
+    reference.text("topic", v.topics.reference, "of a bag with the poses");
     reference.number("north_deg", v.reference_north_deg, Range::between(-360, 360),
                      "true north in the file's map, from x towards y");
   });
@@ -54,10 +60,18 @@ void bind(Binder& b, StatedValues& v) {
   b.number("point_unit_m", v.point_unit_m, Range::positive(),
            "metres that a 1 in a point's coordinates means");
   b.number("point_time_unit_s", v.point_time_unit_s, Range::positive(),
-           "seconds that a 1 in a point's time means; else by its size");
+           "seconds that a 1 in a point's time means; else by the time to the next scan");
   b.group("bin", "how a .bin file holds points", [&](Binder& bin) { bind(bin, v.bin); });
-  b.group("imu", "what the numbers of an IMU mean", [&](Binder& imu) { bind(imu, v.imu); });
-  b.group("gnss", "what the numbers of a fix mean", [&](Binder& gnss) { bind(gnss, v.gnss); });
+  b.group("imu", "what the numbers of an IMU mean", [&](Binder& imu) {
+    bind(imu, v.imu);
+    imu.text("topic", v.topics.imu, "of a bag");
+  });
+  b.group("gnss", "what the numbers of a fix mean", [&](Binder& gnss) {
+    bind(gnss, v.gnss);
+    gnss.text("topic", v.topics.gnss, "of a bag");
+  });
+  b.group("wheels", "wheel odometry",
+          [&](Binder& wheels) { wheels.text("topic", v.topics.wheels, "of a bag"); });
   b.group("vehicle", "mounting of the sensors, and wheel odometry",
           [&](Binder& vehicle) { bind(vehicle, v.vehicle); });
   b.group("log", "format of a text log", [&](Binder& log) { bind(log, v.log); });
@@ -75,7 +89,7 @@ Statements::Statements(const fs::path& sidecar, const OpenOptions& options, fs::
   sensors::LidarProfile checked_only;
   config::read(document_, [&](Binder& b) {
     bind(b, values_);
-    bind_profile(b, checked_only);
+    bind_lidar(b, checked_only, values_.points, values_.topics.lidar, values_.lidar_metadata);
   });
 }
 
@@ -83,7 +97,7 @@ void Statements::override_profile(sensors::LidarProfile& profile) const {
   StatedValues known;  // so that its keys are not taken for unknown ones
   config::read(document_, [&](Binder& b) {
     bind(b, known);
-    bind_profile(b, profile);
+    bind_lidar(b, profile, known.points, known.topics.lidar, known.lidar_metadata);
   });
 }
 

@@ -11,8 +11,9 @@
 #include "traverse/files/input_error.hpp"
 #include "traverse/sensors/lidar_profile.hpp"
 
-#include "kitti/kitti_bin.hpp"
 #include "navigation_log/log_statements.hpp"
+#include "point_clouds/bin_points.hpp"
+#include "point_clouds/point_statements.hpp"
 #include "recording/measurement_statements.hpp"
 #include "recording/vehicle_statements.hpp"
 
@@ -23,11 +24,21 @@ enum class ReferenceFrame { kBody, kLidar, kCamera };
 
 std::string_view name_of(ReferenceFrame frame);
 
+/// The topics of a bag that are taken, where they are stated.
+struct TopicStatements {
+  std::string lidar;
+  std::string imu;
+  std::string gnss;
+  std::string wheels;
+  std::string reference;
+};
+
 /// What can be stated about a recording, with what holds if it is not.
 struct StatedValues {
   std::string name;
   bool motion_compensated = false;
   std::string sensor;
+  std::string lidar_metadata;
   std::string reference_file;
   TrajectoryFormat reference_format = TrajectoryFormat::kAuto;
   ReferenceFrame reference_frame = ReferenceFrame::kBody;
@@ -39,12 +50,14 @@ struct StatedValues {
   std::string accept;
   double point_unit_m = 1;
   double point_time_unit_s = 1;  ///< holds when it is stated
-  BinLayout bin;
+  PointFieldStatements points;
+  BinStatements bin;
   VehicleStatements vehicle;
   ImuStatements imu;
   GnssStatements gnss;
   LogStatements log;
   CsvStatements csv;
+  TopicStatements topics;
 };
 
 void bind(config::Binder& binder, StatedValues& values);

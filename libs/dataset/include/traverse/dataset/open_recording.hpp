@@ -20,16 +20,27 @@ namespace traverse::dataset {
 ///     motion_compensated: false     true: the points of a scan already lie where they would at
 ///                                   its stamp
 ///     sensor: hdl64e_kitti          a profile in SHARE/sensors, or a file relative to this one
-///     lidar: {rings: 64}            any key of a profile, stronger than the profile
+///     lidar:                        any key of a profile, stronger than the profile, and which
+///       rings: 64                   fields of a point hold what:
+///       ring_field: laser_id
+///       time_field: offset_time
+///       time_unit: us               s | ms | us | ns; else from the interval of scans
+///       time_zero: start            stamp | epoch: what times count from; start | middle | end:
+///                                   where in a sweep its stamp is, and differences of times count
+///       metadata: os1.json          of the Ouster whose packets a capture or bag holds
 ///     reference:
 ///       file: poses_velo.txt        relative to the recording's folder
 ///       format: kitti               auto | tum | kitti | euroc
 ///       frame: lidar                body | lidar | camera
+///       topic: /ground_truth        of a bag, instead of a file
 ///       north_deg: 90               true north in the file's map, from x towards y; if known
+///     lidar: {topic: /points}       of a bag, as imu, gnss and wheels: a topic, or none
 ///     accept: gnss_late             contradictions (docs/contradictions.md) to go on with
 ///     point_unit_m: 0.001           metres that a 1 in a point's coordinates means
-///     point_time_unit_s: 1e-6       seconds that a 1 in a point's time means; else by its size
-///     bin: {columns: 5, type: float64}   of .bin files; else x y z intensity as float32
+///     point_time_unit_s: 1e-6       seconds that a 1 in a point's time means; else from intervals
+///     bin:                          of .bin files; else what fits
+///       columns: x y z intensity ring   or how many
+///       type: float64               auto | float32 | float64 | nclt
 ///     imu: {unit: g, angular_rate: deg}  m_s2 | g | mg | increment; rad | deg | increment
 ///     gnss:                         what the numbers of a fix mean
 ///       order: longitude_latitude   latitude_longitude | longitude_latitude
@@ -57,6 +68,9 @@ struct OpenOptions {
   std::filesystem::path share_folder;
   /// False: whoever opens it has the reference already; the file that is stated need not be there.
   bool wants_reference = true;
+  /// False: whoever opens it wants to know what there is; a recording of messages that none can be
+  /// used of is opened too.
+  bool wants_measurements = true;
 };
 
 /// What `options` state, each key for itself, so that it holds from any working directory: a file

@@ -33,6 +33,11 @@ class PointCloud {
   /// \throws std::invalid_argument if `values` is not as long as the fields already there.
   void add(std::string name, FieldValues values);
 
+  /// Of an organised cloud the number of its rows, which hold equally many points; else 1.
+  std::size_t rows() const { return rows_; }
+  /// \throws std::invalid_argument if the points are no multiple of `rows`.
+  void set_rows(std::size_t rows);
+
   std::size_t size() const { return fields_.empty() ? 0 : size_of(fields_.front().values); }
   const std::vector<Field>& fields() const { return fields_; }
   /// The first field of that name, or null.
@@ -40,10 +45,12 @@ class PointCloud {
 
  private:
   std::vector<Field> fields_;
+  std::size_t rows_ = 1;
 };
 
 /// Reads a PCD file (ascii, binary, binary_compressed) or a PLY file (ascii, binary of either byte
-/// order), told apart by how they begin. Fields with several values a point are left out.
+/// order), told apart by how they begin. Fields with several values a point are left out, and those
+/// of a type that is none or whose text is no number unless they are coordinates, ring or time.
 /// Sources: PCL "The PCD file format", version 0.7; Turk, "The PLY polygon file format", 1994.
 /// \throws files::InputError naming the line of a header or of ascii data that is wrong, and the
 /// bytes that are missing from binary data.

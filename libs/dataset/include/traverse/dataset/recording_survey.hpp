@@ -87,4 +87,9 @@ struct RecordingSurvey {
 RecordingSurvey survey(Source& source,
                        const std::function<void(const sensors::Measurement&)>& progress);
 
+/// The same as far as `goes_on` allows, which is asked behind each measurement.
+RecordingSurvey survey(Source& source,
+                       const std::function<void(const sensors::Measurement&)>& progress,
+                       const std::function<bool(const sensors::Measurement&)>& goes_on);
+
 }  // namespace traverse::dataset

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -46,6 +47,16 @@ class SkippedRecords {
   std::map<std::string, Count> by_reason_;
 };
 
+/// A topic of a recording that has many, and what becomes of it.
+struct TopicInfo {
+  std::string topic;
+  std::string type;
+  std::uint64_t count = 0;  ///< messages
+  double rate_hz = 0;       ///< over the whole recording; 0 for fewer than two
+  std::string use;          ///< "lidar", "transforms"; empty: none
+  std::string why;          ///< it is used, or not
+};
+
 /// What a recording is, known before its measurements are read.
 struct RecordingInfo {
   std::filesystem::path path;
@@ -68,6 +79,10 @@ struct RecordingInfo {
   std::string reference_refused = {};
   /// Codes of contradictions that the user knows of and goes on with (statement `accept`).
   std::vector<std::string> accepted_contradictions = {};
+  /// Of recordings that have many: all, in the order of the recording.
+  std::vector<TopicInfo> topics = {};
+  /// Whether the recording tells by itself what it holds, so that it need not be read for that.
+  bool is_listed = false;
 };
 
 /// The reference trajectory that belongs to a recording.

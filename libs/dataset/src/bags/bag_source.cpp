@@ -1,0 +1,484 @@
+#include "bags/bag_source.hpp"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "traverse/bags/message_value.hpp"
+#include "traverse/files/input_error.hpp"
+#include "traverse/packets/packet_lidars.hpp"
+#include "traverse/statistics/quantile.hpp"
+
+#include "bags/bag_files.hpp"
+#include "bags/bag_mounting.hpp"
+#include "bags/frame_tree.hpp"
+#include "bags/packet_topics.hpp"
+#include "bags/ros_messages.hpp"
+#include "bags/topic_choice.hpp"
+#include "captures/ouster_choice.hpp"
+#include "captures/packet_tally.hpp"
+#include "point_clouds/point_fields.hpp"
+#include "point_clouds/point_statements.hpp"
+#include "recording/arrival_watch.hpp"
+#include "recording/folder_opening.hpp"
+#include "recording/measurement_statements.hpp"
+#include "recording/profile_choice.hpp"
+#include "recording/reorder_window.hpp"
+#include "recording/stamp_order.hpp"
+#include "recording/unused_files.hpp"
+
+namespace traverse::dataset {
+
+using files::InputError;
+using files::Place;
+using geometry::Stamp;
+using sensors::Measurement;
+using sensors::SensorKind;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kExampleScans = 5;
+
+fs::path bag_sidecar(const fs::path& path) {
+  return fs::is_directory(path) ? path / "traverse.yaml"
+                                : fs::path(path).replace_extension(".traverse.yaml");
+}
+
+struct BagBookmark : Bookmark {
+  std::shared_ptr<const bags::Position> position;
+  ArrivalWatch watch;
+  ReorderWindow window;
+  StampOrder order;
+  SkippedRecords skipped;
+  StatedMeasurements stated;
+  bool at_end = false;
+
+  explicit BagBookmark(StatedMeasurements stated_now) : stated(std::move(stated_now)) {}
+};
+
+class BagSource : public Source {
+ public:
+  BagSource(const fs::path& path, const OpenOptions& options, std::string_view format)
+      : path_(path),
+        statements_(bag_sidecar(path), options, fs::is_directory(path) ? path : path.parent_path()),
+        info_(begin_info(path, format, statements_, "body")),
+        stated_(statements_->imu, statements_->gnss) {
+    container_ = open_bag_files(path, info_.facts);
+    info_.facts.push_back({"messages",
+                           fmt::format("{} of {} topics", container_->contents().messages,
+                                       container_->contents().channels.size()),
+                           container_->contents().how});
+    topics_ = peek_topics(*container_);
+    ouster_ = ouster_of_bag(*container_, topics_, statements_, path_);
+    if (ouster_) note_ouster(*ouster_, info_.facts);
+    peek_packets(*container_, ouster_, topics_);
+    frames_ = read_frames(*container_, topics_);
+    chosen_ = choose_topics(topics_, frames_, statements_, info_);
+    info_.is_listed = true;
+    if (options.wants_measurements) refuse_nothing();
+    set_motion_compensation(info_, statements_, false, "default, not stated");
+    mount(options);
+    set_camera(info_, statements_, {});
+    const auto* lidar = info_.rig.first(SensorKind::kLidar);
+    if (lidar != nullptr && info_.T_body_camera) {
+      info_.T_body_camera = lidar->T_body_sensor * *info_.T_body_camera;
+    }
+    read_reference(options, lidar);
+    note_unused_files(info_, options, reference_, 0);
+    BagSource::rewind();
+  }
+
+  const RecordingInfo& info() const override { return info_; }
+  const SkippedRecords& skipped() const override { return skipped_; }
+  const std::optional<Reference>& reference() const override { return reference_; }
+  std::optional<double> share_read() const override { return container_->share_read(); }
+
+  std::optional<Measurement> next() override {
+    for (;;) {
+      while (auto entry = window_.pop(at_end_)) {
+        if (order_.accept(entry->measurement)) return std::move(entry->measurement);
+        skipped_.add(StampOrder::kFault, entry->place);
+      }
+      if (at_end_) return std::nullopt;
+      read_message();
+    }
+  }
+
+  void rewind() override {
+    std::vector<std::size_t> channels;
+    for (const auto& [index, label] : labels_) channels.push_back(topics_[index].channel);
+    container_->begin(channels);
+    stated_ = {statements_->imu, statements_->gnss};
+    lidars_ = packets::PacketLidars(ouster_ ? std::optional(ouster_->metadata) : std::nullopt,
+                                    chosen_.lidar ? topics_[*chosen_.lidar].topic : "lidar");
+    tally_ = {};
+    watch_ = {};
+    window_ = {};
+    order_ = {};
+    skipped_ = {};
+    at_end_ = false;
+  }
+
+  std::shared_ptr<const Bookmark> bookmark() const override {
+    // A turn of which half is read is large, and begun by packets that are not read again.
+    if (takes_packets()) return nullptr;
+    auto here = std::make_shared<BagBookmark>(stated_);
+    here->position = container_->position();
+    here->watch = watch_;
+    here->window = window_;
+    here->order = order_;
+    here->skipped = skipped_;
+    here->at_end = at_end_;
+    return here;
+  }
+
+  void return_to(const Bookmark& bookmark) override {
+    const auto& there = dynamic_cast<const BagBookmark&>(bookmark);
+    container_->return_to(*there.position);
+    stated_ = there.stated;
+    watch_ = there.watch;
+    window_ = there.window;
+    order_ = there.order;
+    skipped_ = there.skipped;
+    at_end_ = there.at_end;
+  }
+
+ private:
+  bool takes_packets() const {
+    return std::any_of(labels_.begin(), labels_.end(),
+                       [&](const auto& label) { return holds_packets(topics_[label.first]); });
+  }
+  static bool holds_packets(const PeekedTopic& topic) {
+    return topic.kind == TopicKind::kPackets || topic.kind == TopicKind::kImuPackets;
+  }
+
+  /// A run of nothing is refused by what there is.
+  void refuse_nothing() const {
+    if (chosen_.lidar || chosen_.imu || chosen_.gnss || chosen_.wheels) return;
+    std::string found;
+    for (const TopicInfo& topic : info_.topics) {
+      if (topic.use == "transforms") continue;
+      found += fmt::format("{}{} ({}): {}", found.empty() ? "" : "; ", topic.topic, topic.type,
+                           topic.why);
+    }
+    throw InputError(path_, Place::whole_file(),
+                     "a topic of points, an IMU, a GNSS receiver or wheels that can be read",
+                     found.empty() ? "none with messages" : found);
+  }
+
+  void mount(const OpenOptions& options) {
+    if (chosen_.lidar) {
+      topics_[*chosen_.lidar].packets ? learn_from_packets(options) : learn_lidar(options);
+    }
+    const auto frame_of = [&](const std::optional<std::size_t>& topic) {
+      return topic ? topics_[*topic].frame : std::string();
+    };
+    BagMounting mounting(frames_, statements_, frame_of(chosen_.lidar), frame_of(chosen_.imu),
+                         info_);
+    const auto add = [&](const std::optional<std::size_t>& topic, SensorKind kind) {
+      if (!topic) return;
+      const PeekedTopic& peeked = topics_[*topic];
+      std::string label = peeked.topic;
+      if (info_.rig.find(label) != nullptr) label += fmt::format(" ({})", name_of(kind));
+      labels_[*topic] = label;
+      const geometry::Pose3 T_body_sensor = peeked.kind == TopicKind::kImuPackets
+                                                ? place_ouster_imu(peeked)
+                                                : mounting.place(kind, peeked);
+      info_.rig.sensors.push_back({label, kind, T_body_sensor, std::nullopt});
+      apply_vehicle(statements_, info_.rig.sensors.back());
+      if (kind == SensorKind::kLidar) {
+        if (profile_.profile.name == sensors::LidarProfile().name) profile_.profile.name = label;
+        info_.rig.sensors.back().lidar = profile_.profile;
+        add_profile_facts(profile_, statements_, "", info_.facts);
+        if (!peeked.packets) info_.expected_scans = static_cast<std::size_t>(peeked.count);
+      }
+      if (!peeked.has_stamps) {
+        info_.facts.push_back(
+            {"stamps of " + peeked.topic, "log times", "those of its headers are zero"});
+      }
+    };
+    add(chosen_.lidar, SensorKind::kLidar);
+    add(chosen_.imu, SensorKind::kImu);
+    add(chosen_.gnss, SensorKind::kGnss);
+    add(chosen_.wheels, SensorKind::kWheels);
+  }
+
+  void learn_from_packets(const OpenOptions& options) {
+    const PacketTopic& found = *topics_[*chosen_.lidar].packets;
+    const packets::PacketLidar& lidar = found.lidar;
+    profile_ = choose_profile(
+        statements_, options.share_folder,
+        {lidar.profile, fmt::format("by its packets: {} {}", lidar.maker, lidar.model)});
+    info_.facts.push_back(clock_fact(found.has_absolute_clock, ""));
+  }
+
+  /// It is in one housing with the lidar whose topic is taken, as far as that is an Ouster's.
+  geometry::Pose3 place_ouster_imu(const PeekedTopic& topic) {
+    const bool is_in_lidar = chosen_.lidar && topics_[*chosen_.lidar].packets &&
+                             topics_[*chosen_.lidar].packets->lidar.maker == "Ouster";
+    const geometry::Pose3 T_lidar_imu = ouster_imu_mounting(ouster_->metadata);
+    const Eigen::Vector3d& t = T_lidar_imu.translation;
+    info_.facts.push_back(
+        {fmt::format("mounting of {}", topic.topic),
+         fmt::format("{:.4f} {:.4f} {:.4f} m in {}", t.x(), t.y(), t.z(),
+                     is_in_lidar ? "the lidar" : "an Ouster that is taken to be the body"),
+         "Ouster metadata"});
+    return is_in_lidar ? info_.rig.first(SensorKind::kLidar)->T_body_sensor * T_lidar_imu
+                       : T_lidar_imu;
+  }
+
+  /// What the first scans tell of the lidar and of its points' fields.
+  void learn_lidar(const OpenOptions& options) {
+    const PeekedTopic& topic = topics_[*chosen_.lidar];
+    container_->begin({topic.channel});
+    // Their points stay where they are: the bytes are kept as long as they are looked at.
+    std::vector<std::vector<std::byte>> kept;
+    std::vector<PointSample> samples;
+    std::vector<PointSample> with_one_time;
+    std::vector<Stamp> stamps;
+    for (std::size_t scans = 0; scans < kExampleScans; ++scans) {
+      const auto message = container_->next();
+      if (!message) break;
+      kept.emplace_back(message->bytes.begin(), message->bytes.end());
+      try {
+        const bags::MessageValue value = topic.reader->read(kept.back());
+        const Stamp stamp = header_stamp(value).value_or(Stamp{message->log_time_ns});
+        PointSample sample{columns_of(topic.type, value), stamp};
+        stamps.push_back(stamp);
+        if (sample.points.points == 0) continue;
+        (has_one_time(sample.points) ? with_one_time : samples).push_back(std::move(sample));
+      } catch (const bags::BadMessage&) {
+        continue;  // counted when the recording is read
+      } catch (const UnusableMessage&) {
+        continue;
+      }
+    }
+    if (samples.empty()) samples = std::move(with_one_time);
+    ProfileChoice from_data;
+    from_data.reason = "default; from the first scans";
+    from_data.profile.time_source = sensors::TimeSource::kNone;
+    if (!samples.empty()) {
+      interpret(samples, stamps);
+      const PointSample& example = samples.back();
+      if (fields_.time) from_data.profile.time_source = sensors::TimeSource::kData;
+      PointFields without_times = fields_;
+      without_times.time.reset();
+      without_times.needs_rings = false;
+      const auto scan = scan_of_columns(example.points, example.stamp, without_times, path_);
+      if (scan.ring.empty()) {
+        from_data.reason += ", which have no ring number";
+      } else {
+        from_data.profile.rings = *std::max_element(scan.ring.begin(), scan.ring.end()) + 1;
+      }
+      from_data.profile.intensity_full_scale = full_scale(example.points, scan.intensity);
+    }
+    profile_ = choose_profile(statements_, options.share_folder, from_data);
+    fields_.needs_rings = profile_.profile.ring_source == sensors::RingSource::kData;
+    if (info_.motion_compensated || profile_.profile.time_source != sensors::TimeSource::kData) {
+      fields_.time.reset();
+    }
+  }
+
+  double full_scale(const PointColumns& points, const std::vector<float>& intensity) const {
+    const PointColumn* column = points.find(fields_.intensity);
+    if (column == nullptr || intensity.empty()) return sensors::LidarProfile().intensity_full_scale;
+    if (column->type == ScalarType::kUint16) return 65535;
+    if (column->type == ScalarType::kUint8) return 255;
+    return *std::max_element(intensity.begin(), intensity.end()) <= 1 ? 1 : 255;
+  }
+
+  void interpret(const std::vector<PointSample>& samples, const std::vector<Stamp>& stamps) {
+    PointFieldHints hints = stated_point_fields(statements_);
+    std::vector<double> intervals;
+    for (std::size_t i = 1; i < stamps.size(); ++i) {
+      intervals.push_back(geometry::seconds_between(stamps[i - 1], stamps[i]));
+    }
+    const double interval = intervals.empty() ? 0 : statistics::median(intervals);
+    if (interval > 0) hints.scan_interval_s = interval;
+    hints.recording = path_;
+    fields_ = interpret_points(samples, hints, info_.facts);
+  }
+
+  void read_reference(const OpenOptions& options, const sensors::MountedSensor* lidar) {
+    const geometry::Pose3 T_body_lidar =
+        lidar != nullptr ? lidar->T_body_sensor : geometry::Pose3::identity();
+    if (const auto file = stated_reference(statements_)) {
+      reference_ = load_reference(*file, {T_body_lidar, info_.T_body_camera}, {}, info_.facts);
+      return;
+    }
+    if (!options.wants_reference || !chosen_.reference) return;
+    reference_ = reference_of_topic(*container_, topics_[*chosen_.reference], frames_, T_body_lidar,
+                                    statements_, info_);
+  }
+
+  void read_message() {
+    const auto message = container_->next();
+    if (!message) {
+      at_end_ = true;
+      if (takes_packets()) {
+        const std::string place = "the end";
+        lidars_.finish(packets_to(place));
+        tally_.tell(lidars_, place, skipped_);
+        note_packets(lidars_, info_.facts);
+      }
+      watch_.finish();
+      take_decided();
+      for (const auto& [reason, loss] : container_->losses().by_reason()) {
+        for (std::size_t i = 0; i < loss.count; ++i) {
+          skipped_.add(reason, loss.first_places[std::min(i, loss.first_places.size() - 1)]);
+        }
+      }
+      return;
+    }
+    const auto known = std::find_if(labels_.begin(), labels_.end(), [&](const auto& label) {
+      return topics_[label.first].channel == message->channel;
+    });
+    if (known == labels_.end()) return;
+    const PeekedTopic& topic = topics_[known->first];
+    const auto place = [&] {
+      return fmt::format("{}, log time {}", topic.topic, to_text(Stamp{message->log_time_ns}));
+    };
+    try {
+      if (holds_packets(topic)) {
+        add_packets(topic, *message, place());
+      } else if (auto measurement = measurement_of(topic, known->second, *message)) {
+        watch_.push({std::move(*measurement), place()});
+        take_decided();
+      }
+    } catch (const bags::BadMessage& error) {
+      skipped_.add(error.what(), place());
+    } catch (const UnusableMessage& error) {
+      skipped_.add(error.what(), place());
+    } catch (const InputError& error) {  // of a cloud whose fields are others than before
+      skipped_.add(fmt::format("expected {}, found {}", error.expected(), error.found()), place());
+    }
+  }
+
+  void add_packets(const PeekedTopic& topic, const bags::Message& message,
+                   const std::string& place) {
+    const bags::MessageValue value = topic.reader->read(message.bytes);
+    const packets::PacketLidars::Sink sink = packets_to(place);
+    for_each_packet(value, Stamp{message.log_time_ns}, [&](packets::Bytes packet, Stamp arrival) {
+      lidars_.add(topic.topic, packet, arrival, sink);
+    });
+    tally_.tell(lidars_, place, skipped_);
+    take_decided();
+  }
+
+  /// What packets give, with the labels of their topics. \param place must outlive it
+  packets::PacketLidars::Sink packets_to(const std::string& place) {
+    return [this, &place](packets::PacketMeasurement&& found) {
+      Measurement& measurement = found.measurement;
+      if (std::holds_alternative<sensors::GnssFix>(measurement)) {
+        skipped_.add("fix of a position packet, which a bag's lidar does not give", place);
+        return;
+      }
+      if (auto* sample = std::get_if<sensors::ImuSample>(&measurement)) {
+        const bool is_taken = chosen_.imu && topics_[*chosen_.imu].kind == TopicKind::kImuPackets;
+        if (!is_taken) {
+          skipped_.add("reading of an Ouster's IMU among the packets of its returns", place);
+          return;
+        }
+        sample->sensor = labels_.at(*chosen_.imu);
+        if (!stated_.apply(*sample)) {
+          skipped_.add("increment before which there is no reading", place);
+          return;
+        }
+      }
+      watch_.push({std::move(measurement), place});
+    };
+  }
+
+  std::optional<Measurement> measurement_of(const PeekedTopic& topic, const std::string& label,
+                                            const bags::Message& message) {
+    const bags::MessageValue value = topic.reader->read(message.bytes);
+    const Stamp stamp = header_stamp(value).value_or(Stamp{message.log_time_ns});
+    switch (topic.kind) {
+      case TopicKind::kCloud: {
+        const PointColumns points = columns_of(topic.type, value);
+        if (points.points == 0) throw UnusableMessage("scan without points");
+        auto scan =
+            in_metres(scan_of_columns(points, stamp, fields_, path_), statements_->point_unit_m);
+        scan.sensor = label;
+        return std::make_shared<const sensors::LidarScan>(std::move(scan));
+      }
+      case TopicKind::kImu: {
+        sensors::ImuSample sample = imu_sample_of(value);
+        sample.stamp = stamp;
+        sample.sensor = label;
+        if (!stated_.apply(sample)) {
+          throw UnusableMessage("increment before which there is no reading");
+        }
+        return sample;
+      }
+      case TopicKind::kGnss: {
+        sensors::GnssFix fix = gnss_fix_of(topic.type, value);
+        fix.stamp = stamp;
+        fix.sensor = label;
+        stated_.apply(fix);
+        if (is_nowhere(fix)) throw UnusableMessage(kNoFixYet);
+        return fix;
+      }
+      case TopicKind::kOdometry:
+      case TopicKind::kTwist: {
+        sensors::WheelOdometry odometry = wheel_odometry_of(topic.kind, value);
+        odometry.stamp = stamp;
+        odometry.sensor = label;
+        return odometry;
+      }
+      default:
+        return std::nullopt;
+    }
+  }
+
+  void take_decided() {
+    for (auto& rejected : watch_.take_rejected()) skipped_.add(rejected.fault, rejected.place);
+    for (auto& entry : watch_.take_accepted()) window_.push(std::move(entry));
+    for (Fact& step : watch_.take_steps()) {
+      const bool is_new =  // when the recording is not read once more
+          std::none_of(info_.facts.begin(), info_.facts.end(), [&](const Fact& fact) {
+            return fact.name == step.name && fact.value == step.value;
+          });
+      if (is_new) info_.facts.push_back(std::move(step));
+    }
+  }
+
+  fs::path path_;
+  Statements statements_;
+  RecordingInfo info_;
+  std::unique_ptr<bags::MessageContainer> container_;
+  std::vector<PeekedTopic> topics_;
+  FrameTree frames_;
+  ChosenTopics chosen_;
+  std::map<std::size_t, std::string> labels_;  ///< of the sensors, by topic
+  ProfileChoice profile_;
+  PointFields fields_;
+  std::optional<OusterChoice> ouster_;
+  std::optional<Reference> reference_;
+
+  StatedMeasurements stated_;
+  packets::PacketLidars lidars_;
+  PacketTally tally_;
+  ArrivalWatch watch_;
+  ReorderWindow window_;
+  StampOrder order_;
+  SkippedRecords skipped_;
+  bool at_end_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Source> open_bag(const fs::path& path, const OpenOptions& options,
+                                 std::string_view format) {
+  return std::make_unique<BagSource>(path, options, format);
+}
+
+}  // namespace traverse::dataset
