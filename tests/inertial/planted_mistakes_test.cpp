@@ -11,11 +11,10 @@
 
 #include "traverse/geometry/so3.hpp"
 #include "traverse/inertial/factor_kinds.hpp"
-#include "traverse/inertial/residuals.hpp"
 #include "traverse/optimization/jacobian_audit.hpp"
 
-#include "factors/link_models.hpp"
-#include "smoother/state_blocks.hpp"
+#include "residuals/inertial.hpp"
+#include "residuals/state_blocks.hpp"
 
 namespace traverse::inertial {
 namespace {
@@ -39,7 +38,7 @@ auto bg(Jacobian<9>& Ji) { return Ji.block<3, 3>(0, NavState::kGyroBias); }
 
 struct MistakenModel {
   static constexpr int kSize = 9;
-  InertialModel model;
+  InertialResidual model;
   Mistake mistake;
   Residual<9> operator()(const NavState& i, const NavState& j, Jacobian<9>* Ji,
                          Jacobian<9>* Jj) const {
@@ -95,9 +94,9 @@ FactorKind kind_with(const Mistake& mistake) {
   kind.make = [mistake](optimization::RandomStates& random, optimization::Perturbation) {
     const Situation s = situation(random);
     optimization::FactorSample sample;
-    const InertialModel model{s.imu, s.gravity};
+    const InertialResidual model{s.imu, s.gravity};
     sample.analytic = std::make_shared<LinkCost<MistakenModel>>(MistakenModel{model, mistake});
-    sample.automatic = std::make_shared<LinkCost<InertialModel>>(model);  // not what is tested
+    sample.automatic = std::make_shared<LinkCost<InertialResidual>>(model);  // not what is tested
     for (const NavState& x : {s.i, s.j}) {
       sample.state.emplace_back(x.q_map_body.coeffs());
       sample.state.emplace_back(x.p_map);

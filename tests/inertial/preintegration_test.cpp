@@ -1,4 +1,4 @@
-#include "traverse/inertial/preintegration.hpp"
+#include "factors/preintegration.hpp"
 
 #include <cmath>
 #include <limits>
@@ -8,9 +8,8 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "traverse/inertial/residuals.hpp"
-
 #include "geometry/random_motion.hpp"
+#include "residuals/inertial.hpp"
 
 namespace traverse::inertial {
 namespace {
@@ -55,7 +54,8 @@ TEST(Preintegration, PredictsTheStateOfZeroResidual) {
   start.accelerometer_bias = random.vector(0.2);
   const Eigen::Vector3d gravity(0, 0, -9.81);
   const NavState end = imu.predict(start, gravity);
-  EXPECT_LT(inertial_residual(imu, gravity, start, end).norm(), 1e-12);
+  const InertialResidual motion{std::make_shared<Preintegration>(imu), gravity};
+  EXPECT_LT(motion(start, end).norm(), 1e-12);
   EXPECT_DOUBLE_EQ(geometry::seconds_between(start.stamp, end.stamp), 0.4);
 }
 

@@ -22,6 +22,8 @@ class SimulatedVehicle {
   Eigen::Vector3d imu_from_axle{1.2, 0.1, 0.5};  ///< in the body
   double cruise_mps = 10;
   double light_every_s = 110;  ///< 0: no lights
+  double road_scale = 1;       ///< lengths of the road, less for a small robot
+  double slope_rad = 0.04;     ///< of its hills, at most
 
   double speed(double t) const {
     return cruise_mps * changes(t, [](double x) { return smooth(x); });
@@ -32,7 +34,7 @@ class SimulatedVehicle {
   }
   // The road gives the attitude, so that a car that stands does not turn.
   double heading(double t) const {
-    const double s = way(t);
+    const double s = way(t) / road_scale;
     double sum = 0.4 + 0.03 * std::sin(0.05 * s);
     for (int k = 0; k < 40; ++k) {
       const double sign = k % 4 < 2 ? 1 : -1;
@@ -40,8 +42,8 @@ class SimulatedVehicle {
     }
     return sum;
   }
-  double pitch_up(double t) const { return 0.04 * std::sin(0.007 * way(t)); }
-  double roll(double t) const { return 0.02 * std::sin(0.031 * way(t)); }
+  double pitch_up(double t) const { return slope_rad * std::sin(0.007 * way(t) / road_scale); }
+  double roll(double t) const { return 0.02 * std::sin(0.031 * way(t) / road_scale); }
 
   Eigen::Matrix3d rotation(double t) const {
     return geometry::exp_so3({0, 0, heading(t)}) * geometry::exp_so3({0, -pitch_up(t), 0}) *

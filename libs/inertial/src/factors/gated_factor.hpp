@@ -27,7 +27,7 @@ Innovation constrain_newest(FixedLagSmoother& smoother, const Model& model,
   Jacobian<Model::kSize> J;
   const Residual<Model::kSize> r = model(smoother.newest(), &J);
   Innovation found = innovation(r, J, smoother.covariance(), R);
-  if (gate && found.chi2 > chi2_bound(Model::kSize)) {
+  if (gate && !(found.chi2 <= chi2_bound(Model::kSize))) {  // or it is no number
     found.is_rejected = true;
     return found;
   }

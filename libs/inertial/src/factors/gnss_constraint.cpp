@@ -1,75 +1,197 @@
 #include "factors/gnss_constraint.hpp"
 
+#include <algorithm>
+
+#include <Eigen/Cholesky>
+
 #include "traverse/geometry/angle.hpp"
 #include "traverse/geometry/so3.hpp"
 
 #include "factors/gated_factor.hpp"
+#include "residuals/gnss_pose.hpp"
+#include "residuals/gnss_position.hpp"
+#include "residuals/heading.hpp"
 
 namespace traverse::inertial {
 
-void GnssConstraint::constrain(FixedLagSmoother& smoother, const MapFix& fix,
+namespace {
+
+bool contradicts(const Eigen::Vector3d& difference, const Eigen::Matrix3d& covariance) {
+  return !(difference.dot(covariance.ldlt().solve(difference)) <= chi2_bound(3));
+}
+
+}  // namespace
+
+void GnssConstraint::constrain(FixedLagSmoother& smoother, const MapFix& told,
                                const BodyMotion& motion, const NavState::Tangent& first_sigma,
                                NavFrame& frame, Events& events) {
+  MapFix fix = told;
   const AntennaFix antenna{fix.p_antenna_map, antenna_body_, motion.angular_rate,
                            motion.acceleration_map};
-  frame.gnss_residual_enu = gnss_position_residual(antenna, smoother.newest());
+  frame.gnss_residual_enu = GnssPositionResidual{antenna}(smoother.newest());
+  if (options_.gate) judge_rejected(smoother, fix, first_sigma, frame, events);
 
-  const bool gate = options_.gate && rejected_in_a_row_ < options_.max_rejected;
-  if (options_.gate && !gate) {
-    ++events["navigation begun again after too many fixes were rejected"];
-    begin_again(smoother, fix, first_sigma);
-    frame.restarted = true;
-  }
   const bool as_pose = options_.form == GnssForm::kPose && fix.heading.has_value();
-  frame.gnss = as_pose ? take_pose(smoother, fix, gate)
-                       : constrain_newest(smoother, GnssPositionModel{antenna}, fix.covariance,
-                                          gate, options_.huber);
-  rejected_in_a_row_ = frame.gnss.is_rejected ? rejected_in_a_row_ + 1 : 0;
-  if (frame.gnss.is_rejected) ++events["fix rejected by chi-square"];
-  if (!as_pose && fix.heading) {
-    const double sigma = options_.heading_deg * geometry::kDegree;
-    frame.heading = constrain_newest(smoother, HeadingModel{*fix.heading},
-                                     Covariance<HeadingModel>(sigma * sigma), gate, options_.huber);
-    if (frame.heading.is_rejected) ++events["heading rejected by chi-square"];
+  if (as_pose && options_.level_pose) {
+    take_level_pose(smoother, fix, frame);
+  } else if (as_pose) {
+    take_pose(smoother, fix, antenna, frame);
+  } else {
+    frame.gnss = constrain_newest(smoother, GnssPositionResidual{antenna}, fix.covariance,
+                                  options_.gate, options_.huber);
+    if (fix.heading) take_heading(smoother, fix, frame);
   }
+  if (frame.gnss.is_rejected) {
+    ++events["fix rejected by chi-square"];
+    rejected_.add(fix.stamp, frame.gnss_residual_enu, told.covariance);
+  } else {
+    rejected_.clear();
+    last_fix_ = fix.stamp;
+  }
+  if (frame.heading.is_rejected) ++events["heading rejected by chi-square"];
+  if (frame.heading.rows > 0 && !frame.heading.is_rejected) last_heading_ = fix.stamp;
+}
+
+bool GnssConstraint::has_heading(geometry::Stamp stamp) const {
+  constexpr double kHolds = 1;  // s; a gyro's bias is then good for a thousandth of a radian
+  return last_heading_ && geometry::seconds_between(*last_heading_, stamp) <= kHolds;
 }
 
 void GnssConstraint::constrain_last(FixedLagSmoother& smoother, const MapFix& fix) const {
-  smoother.add_to_last(make_factor(GnssPositionModel{{fix.p_antenna_map, antenna_body_}},
+  smoother.add_to_last(make_factor(GnssPositionResidual{{fix.p_antenna_map, antenna_body_}},
                                    fix.covariance, options_.huber));
 }
 
-/// Fixes that disagree for so long are right, and the estimate is not: it begins again from here,
-/// keeping what it knows of the biases.
-void GnssConstraint::begin_again(FixedLagSmoother& smoother, const MapFix& fix,
+/// Who is right, when fixes were rejected for long: those that scatter more than they say are
+/// weighed by their scatter; those that agree with each other and with the motion, and still not
+/// with the estimate, are right, and the estimate begins again from what they say together. The
+/// newest then passes the gate as any other, or does not.
+void GnssConstraint::judge_rejected(FixedLagSmoother& smoother, MapFix& fix,
+                                    const NavState::Tangent& first_sigma, NavFrame& frame,
+                                    Events& events) {
+  if (rejected_.empty()) return;
+  RejectedFixes with_this = rejected_;
+  with_this.add(fix.stamp, frame.gnss_residual_enu, fix.covariance);
+  const auto line = with_this.line(patience_s(smoother.newest().v_map.norm()));
+  if (!line) return;
+  fix.covariance = line->of_fix;
+  const Eigen::Matrix3d P =
+      smoother.covariance().block<3, 3>(NavState::kPosition, NavState::kPosition);
+  if (!contradicts(line->offset, P + line->of_offset)) {
+    ++events["fix weighed by its scatter, which is larger than it says"];
+    return;
+  }
+  ++events["navigation begun again after too many fixes were rejected"];
+  begin_again(smoother, *line, first_sigma);
+  frame.restarted = true;
+  rejected_.clear();
+}
+
+/// An estimate leaves the fixes as fast as a vehicle can move without its wheels telling: locked
+/// ones hide all of its speed. What is farther off at once is a jump of the receiver, and fixes
+/// that jumped together come back together: they are believed when dead reckoning would no longer
+/// be.
+double GnssConstraint::patience_s(double speed_mps) const {
+  constexpr double kDeadReckoning_s = 10;
+  constexpr double kUnseen_mps2 = 20;  // twice what tyres hold
+  constexpr double kSlip = 2;          // times the speed, of wheels that lock or spin
+  const double longest_s = options_.longest_rejection_s;
+  if (!last_fix_) return longest_s;
+  const double seconds = geometry::seconds_between(*last_fix_, rejected_.first_stamp());
+  const double by_driving_m = (kSlip * speed_mps + 0.5 * kUnseen_mps2 * seconds) * seconds;
+  const bool jumped = rejected_.first_residual().norm() > by_driving_m;
+  return jumped ? std::max(longest_s, kDeadReckoning_s) : longest_s;
+}
+
+/// Gives up of the estimate what the fixes contradict: the place, and the velocity, with the
+/// attitude that led to it, if that disagrees too. Biases and calibration stay, with some doubt.
+void GnssConstraint::begin_again(FixedLagSmoother& smoother, const RejectedFixes::Line& line,
                                  const NavState::Tangent& first_sigma) const {
   constexpr double kTilt = 0.05;    // rad
   constexpr double kHeading = 0.3;  // rad
   constexpr double kVelocity = 3;   // m/s
-  constexpr double kBiasDoubt = 5;  // times the standard deviation that was believed
+  constexpr double kDoubt = 5;      // times the standard deviation that was believed
   NavState state = smoother.newest();
-  NavState::Tangent sigma =
-      (kBiasDoubt * smoother.covariance().diagonal().cwiseSqrt()).cwiseMin(first_sigma);
-  state.p_map = fix.p_antenna_map - state.q_map_body * antenna_body_;
-  sigma.segment<3>(NavState::kRotation) << kTilt, kTilt, kHeading;
-  sigma.segment<3>(NavState::kPosition) = 10 * fix.covariance.diagonal().cwiseSqrt();
-  sigma.segment<3>(NavState::kVelocity).setConstant(kVelocity);
+  const NavState::Matrix& P = smoother.covariance();
+  NavState::Tangent sigma = (kDoubt * P.diagonal().cwiseSqrt()).cwiseMin(first_sigma);
+  state.p_map -= line.offset;
+  sigma.segment<3>(NavState::kPosition) = line.of_fix.diagonal().cwiseSqrt();
+  const Eigen::Matrix3d P_v = P.block<3, 3>(NavState::kVelocity, NavState::kVelocity);
+  if (contradicts(line.slope, P_v + line.of_slope)) {
+    state.v_map -= line.slope;
+    sigma.segment<3>(NavState::kRotation) << kTilt, kTilt, kHeading;
+    sigma.segment<3>(NavState::kVelocity).setConstant(kVelocity);
+  }
   smoother.start(state, sigma);
 }
 
-/// The book's form: the antenna's place moved to the body with the heading that was measured, and
-/// that heading as a whole rotation.
-Innovation GnssConstraint::take_pose(FixedLagSmoother& smoother, const MapFix& fix,
-                                     bool gate) const {
-  GnssPoseModel model;
+void GnssConstraint::take_heading(FixedLagSmoother& smoother, const MapFix& fix,
+                                  NavFrame& frame) const {
+  const double sigma = options_.heading_deg * geometry::kDegree;
+  frame.heading =
+      constrain_newest(smoother, HeadingResidual{*fix.heading},
+                       Covariance<HeadingResidual>(sigma * sigma), options_.gate, options_.huber);
+}
+
+/// The six-row pose from a place and a heading, neither of which tells roll and pitch: those are
+/// the estimate's own, and weigh next to nothing. Place and heading are gated apart; where one is
+/// wrong the other is taken alone.
+void GnssConstraint::take_pose(FixedLagSmoother& smoother, const MapFix& fix,
+                               const AntennaFix& antenna, NavFrame& frame) const {
+  const NavState& x = smoother.newest();
+  const double heading_sigma = options_.heading_deg * geometry::kDegree;
+  const Covariance<HeadingResidual> R_heading(heading_sigma * heading_sigma);
+  const auto judge = [&](const auto& residual, const auto& R) {
+    using Model = std::decay_t<decltype(residual)>;
+    Jacobian<Model::kSize> J;
+    const Residual<Model::kSize> r = residual(x, &J);
+    Innovation found = innovation(r, J, smoother.covariance(), R);
+    found.is_rejected = options_.gate && !(found.chi2 <= chi2_bound(Model::kSize));
+    return found;
+  };
+  frame.gnss = judge(GnssPositionResidual{antenna}, fix.covariance);
+  const HeadingResidual heading{*fix.heading};
+  frame.heading = judge(heading, R_heading);
+  if (frame.gnss.is_rejected && frame.heading.is_rejected) return;
+  if (frame.heading.is_rejected) {
+    smoother.add(make_factor(GnssPositionResidual{antenna}, fix.covariance, options_.huber));
+    return;
+  }
+  if (frame.gnss.is_rejected) {
+    smoother.add(make_factor(heading, R_heading, options_.huber));
+    return;
+  }
+  const double turn = -heading(x)[0];  // from the estimate's heading to the one measured
+  GnssPoseResidual model;
+  model.T_map_body_measured.rotation = geometry::exp_so3({0, 0, turn}) * x.rotation();
+  // The antenna's place as the estimate's latency and bias of fixes have it, at the body.
+  const Eigen::Vector3d arm_map = model.T_map_body_measured.rotation * antenna_body_;
+  const Eigen::Vector3d at_estimate = x.rotation() * antenna_body_;
+  model.T_map_body_measured.translation = x.p_map - frame.gnss_residual_enu + at_estimate - arm_map;
+  const double tilt_sigma = options_.tilt_deg * geometry::kDegree;
+  // In the body's axes, where the vertical is the third but for the slope.
+  const Eigen::Vector3d rotation_sigma(tilt_sigma, tilt_sigma, heading_sigma);
+  Covariance<GnssPoseResidual> R = Covariance<GnssPoseResidual>::Zero();
+  R.topLeftCorner<3, 3>() = rotation_sigma.cwiseAbs2().asDiagonal();
+  // The lever arm turned by a heading that errs.
+  const Eigen::Vector3d swept = heading_sigma * Eigen::Vector3d::UnitZ().cross(arm_map);
+  R.bottomRightCorner<3, 3>() = fix.covariance + swept * swept.transpose();
+  smoother.add(make_factor(model, R, options_.huber));
+}
+
+/// The book's form to the letter: the antenna's place moved to the body as on level ground, and the
+/// heading as a whole rotation; one gate for all six rows.
+void GnssConstraint::take_level_pose(FixedLagSmoother& smoother, const MapFix& fix,
+                                     NavFrame& frame) const {
+  GnssPoseResidual model;
   model.T_map_body_measured.rotation = geometry::exp_so3({0, 0, *fix.heading});
   model.T_map_body_measured.translation =
       fix.p_antenna_map - model.T_map_body_measured.rotation * antenna_body_;
   const double sigma = options_.heading_deg * geometry::kDegree;
-  Covariance<GnssPoseModel> R = Covariance<GnssPoseModel>::Zero();
+  Covariance<GnssPoseResidual> R = Covariance<GnssPoseResidual>::Zero();
   R.topLeftCorner<3, 3>() = sigma * sigma * Eigen::Matrix3d::Identity();
   R.bottomRightCorner<3, 3>() = fix.covariance;
-  return constrain_newest(smoother, model, R, gate, options_.huber);
+  frame.gnss = constrain_newest(smoother, model, R, options_.gate, options_.huber);
 }
 
 }  // namespace traverse::inertial

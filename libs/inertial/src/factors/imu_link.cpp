@@ -24,11 +24,15 @@ ImuLink::ImuLink(const ImuLink& other)
     : noise_(other.noise_),
       imu_(other.imu_ ? std::make_shared<Preintegration>(*other.imu_) : nullptr),
       last_(other.last_),
-      forward_mps_(other.forward_mps_) {}
+      forward_mps_(other.forward_mps_),
+      v_map_(other.v_map_),
+      q_map_body_(other.q_map_body_) {}
 
 void ImuLink::begin(const NavState& state) {
   imu_ = std::make_shared<Preintegration>(noise_, state.gyro_bias, state.accelerometer_bias);
   forward_mps_ = (state.q_map_body.conjugate() * state.v_map).x();
+  v_map_ = state.v_map;
+  q_map_body_ = state.q_map_body;
 }
 
 ImuLink::Step ImuLink::add(const ImuSample& sample, const NavState& newest,
@@ -56,7 +60,11 @@ ImuLink::Step ImuLink::add(const ImuSample& sample, const NavState& newest,
   // The speed's change within this step alone: solutions in between move the speed itself.
   step.speed_change_mps = forward - forward_mps_;
   step.way_m = moved.v_map.norm() * seconds;
+  step.seconds = seconds;
+  step.velocity_change_map = moved.v_map - v_map_;
   forward_mps_ = forward;
+  v_map_ = moved.v_map;
+  q_map_body_ = moved.q_map_body;
   last_ = sample;
   return step;
 }

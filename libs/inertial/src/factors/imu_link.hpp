@@ -4,8 +4,9 @@
 #include <optional>
 
 #include "traverse/inertial/nav_state.hpp"
-#include "traverse/inertial/preintegration.hpp"
 #include "traverse/sensors/imu_sample.hpp"
+
+#include "factors/preintegration.hpp"
 
 namespace traverse::inertial {
 
@@ -28,6 +29,8 @@ class ImuLink {
   struct Step {
     double speed_change_mps = 0;  ///< forward
     double way_m = 0;
+    double seconds = 0;
+    Eigen::Vector3d velocity_change_map = Eigen::Vector3d::Zero();  ///< m/s
     bool is_gap = false;  ///< longer than readings of an IMU are apart
   };
   /// Integrates from the last reading to `sample`. \pre begin() was called, last() is earlier
@@ -36,6 +39,9 @@ class ImuLink {
 
   const std::optional<sensors::ImuSample>& last() const { return last_; }
   void set_last(const std::optional<sensors::ImuSample>& sample) { last_ = sample; }
+
+  /// Predicted, at the last reading.
+  const Eigen::Quaterniond& attitude() const { return q_map_body_; }
 
   /// Ready to be a link of the chain.
   std::shared_ptr<Preintegration> take();
@@ -48,6 +54,8 @@ class ImuLink {
   std::shared_ptr<Preintegration> imu_;
   std::optional<sensors::ImuSample> last_;
   double forward_mps_ = 0;  ///< predicted, at the last reading
+  Eigen::Vector3d v_map_ = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond q_map_body_ = Eigen::Quaterniond::Identity();
 };
 
 }  // namespace traverse::inertial

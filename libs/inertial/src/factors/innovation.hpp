@@ -2,7 +2,7 @@
 
 #include "traverse/inertial/navigation.hpp"
 
-#include "factors/state_factors.hpp"
+#include "factors/state_factor.hpp"
 
 namespace traverse::inertial {
 

@@ -1,4 +1,4 @@
-#include "traverse/inertial/preintegration.hpp"
+#include "factors/preintegration.hpp"
 
 #include <cmath>
 #include <stdexcept>

@@ -24,7 +24,8 @@ void FrameQueue::take(const FixedLagSmoother::Solution& solution,
                       const FixedLagSmoother& smoother) {
   complete(smoother.size());  // the smoother may have begun again
   NavFrame& frame = newest();
-  frame.covariance = smoother.covariance();
+  frame.covariance = solution.covariance;
+  frame.converged = solution.converged;
   frame.iterations += solution.iterations;
   frame.states = static_cast<int>(smoother.size());
   frame.inertial = {solution.inertial_chi2, smoother.size() > 1 ? 9 : 0, false};

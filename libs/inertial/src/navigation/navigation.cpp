@@ -6,9 +6,13 @@
 #include <utility>
 #include <variant>
 
+#include <fmt/format.h>
+
 #include "factors/gnss_constraint.hpp"
 #include "factors/imu_link.hpp"
 #include "factors/wheel_constraint.hpp"
+#include "navigation/first_fixes.hpp"
+#include "navigation/fix_scatter.hpp"
 #include "navigation/frame_queue.hpp"
 #include "navigation/map_fix.hpp"
 #include "navigation/navigation_start.hpp"
@@ -58,8 +62,13 @@ class Navigation::Impl {
         continue;
       }
       if (last) advance(interpolated(*last, sample, stamp_of(reading)));
-      std::visit([this](const auto& held) { use(held); }, reading);
+      try {
+        std::visit([this](const auto& held) { use(held); }, reading);
+      } catch (const NotSolvable&) {
+        carry_on(stamp_of(reading));
+      }
     }
+    if (!first_imu_) first_imu_ = sample.stamp;
     advance(sample);
     start_without_fix();
     return frames_.take_done();
@@ -82,7 +91,41 @@ class Navigation::Impl {
     return frames_.take_done();
   }
 
-  std::string start_note() const { return has_started() ? note_ : start_->why_not(); }
+  std::string start_note() const {
+    if (!begun_) return start_->why_not();
+    const double late_s = seconds_between(*first_imu_, *begun_);
+    const double all_s = imu_.last() ? seconds_between(*first_imu_, imu_.last()->stamp) : 0;
+    if (!(all_s > late_s)) return note_;
+    return fmt::format("{}; {:.1f} s after the first IMU reading, {:.1f} % of the recording", note_,
+                       late_s, 100 * late_s / all_s);
+  }
+
+  std::vector<Fact> facts() const {
+    std::vector<Fact> facts;
+    const bool is_stated = options_.gnss.horizontal_m > 0 && options_.gnss.vertical_m > 0;
+    const auto found = scatter_.sigma();
+    if (without_covariance_ > 0 && !is_stated) {
+      facts.push_back(
+          {"sigma of fixes",
+           found
+               ? fmt::format("{:.3f} m horizontally, {:.3f} m vertically: what the last {} "
+                             "scatter by against the IMU; {} tell none, and gnss.horizontal_m "
+                             "and gnss.vertical_m state none",
+                             found->horizontal_m, found->vertical_m, scatter_.fixes(),
+                             without_covariance_)
+               : fmt::format("1 m horizontally, 2 m vertically, as of one receiver alone: {} tell "
+                             "none, and they are too few to scatter",
+                             without_covariance_)});
+    }
+    if (failed_at_) {
+      facts.push_back(
+          {"solver", fmt::format("first failed {:.3f} s after the first IMU reading: the states "
+                                 "could not be solved for; what was estimated is kept, and "
+                                 "navigation went on from the newest state",
+                                 seconds_between(*first_imu_, *failed_at_))});
+    }
+    return facts;
+  }
 
   std::optional<geodesy::LocalTangentPlane> plane;
   Events events;
@@ -105,6 +148,7 @@ class Navigation::Impl {
       const ImuLink::Step step = imu_.add(sample, smoother_->newest(), gravity_map());
       if (step.is_gap) ++events["gap between IMU readings"];
       wheel_speed_.add_change(sample.stamp, step.speed_change_mps);
+      scatter_.add_motion(step.seconds, step.velocity_change_map);
       outages_.add_distance(step.way_m);
     }
     imu_.set_last(sample);
@@ -124,8 +168,28 @@ class Navigation::Impl {
     smoother_.reset();
     imu_.set_last(std::nullopt);
     last_fix_.reset();
+    scatter_.forget_path();
     waiting_.clear();
     start_.emplace(options_, mounts_, gravity_);
+  }
+
+  /// After a solution that failed: what is done stays, and the newest state is the first of a new
+  /// chain, with the doubt of a first one.
+  void carry_on(Stamp stamp) {
+    ++events["solution that failed, after which navigation went on from the newest state"];
+    if (!failed_at_) failed_at_ = stamp;
+    const NavState state = smoother_->newest();
+    if (!state.p_map.allFinite() || !state.v_map.allFinite() ||
+        !state.q_map_body.coeffs().allFinite()) {
+      start_anew();
+      return;
+    }
+    smoother_->start(state, first_sigma_);
+    frames_.end(*smoother_);
+    frames_.begin(1);
+    frames_.newest().restarted = true;
+    imu_.begin(state);
+    frames_.take(smoother_->solve(), *smoother_);
   }
 
   NavState::Tangent smallest_doubt() const {
@@ -139,8 +203,12 @@ class Navigation::Impl {
     smoother_.emplace(options_.window, options_.imu, calibration_walk(options_), gravity_map());
     smoother_->start(first.state, first.sigma);
     first_sigma_ = first.sigma.cwiseMax(smallest_doubt());
-    note_ = first.note;
+    if (!begun_) {
+      begun_ = first.state.stamp;
+      note_ = first.note;
+    }
     imu_.begin(first.state);
+    scatter_.forget_path();
     outages_.start(first.state.stamp);
     frames_.begin(1);
     frames_.newest().restarted = std::exchange(starts_anew_, false);
@@ -167,9 +235,13 @@ class Navigation::Impl {
       ++events["fix after dead reckoning had begun"];
       return;
     }
-    if (!plane) set_origin(fix);
-    MapFix map_fix = in_map(fix, *plane, options_.gnss, mounts_.baseline_angle, events);
-    if (is_pairing_alike(options_)) map_fix.covariance *= kAlikeVariance;
+    if (!plane) {
+      const auto origin = first_fixes_.add(fix, events);
+      if (!origin) return;
+      set_origin(*origin);
+      if (origin->stamp < fix.stamp) start_->at_fix(mapped(*origin));
+    }
+    MapFix map_fix = mapped(fix);
     if (!has_started()) {
       const auto first = start_->at_fix(map_fix);
       if (!first) return;
@@ -180,7 +252,7 @@ class Navigation::Impl {
     // The wheels make states meanwhile, where there are any.
     const bool by_wheels = options_.wheels.use && wheel_speed_.is_fresh();
     if (is_out && (by_wheels || is_close_to_newest(fix.stamp))) return;
-    if (is_pairing_alike(options_) && is_close_to_newest(fix.stamp)) {
+    if (is_paired(options_) && is_close_to_newest(fix.stamp)) {
       ++events["fix within 10 ms of a state"];
       return;
     }
@@ -193,7 +265,10 @@ class Navigation::Impl {
 
   void use(const WheelOdometry& reading) {
     if (!wheel_speed_.add(reading)) {
-      ++events["wheel reading without a speed"];
+      ++events[reading.ticks && !mounts_.encoder
+                   ? "wheel reading of pulses whose length is not known "
+                     "(vehicle.wheels.left_m_per_pulse, right_m_per_pulse)"
+                   : "wheel reading without a speed"];
       return;
     }
     if (!has_started()) {
@@ -208,10 +283,21 @@ class Navigation::Impl {
     make_state(reading.stamp);
     frames_.newest().by_wheels = true;
     constrain_by_wheels();
-    if (is_pairing_alike(options_) && last_was_by_gnss_) {
-      by_wheels_.constrain_last(*smoother_, wheel_speed_, last_rate_);
+    if (is_paired(options_) && last_was_by_gnss_) {
+      by_wheels_.constrain_last(*smoother_, wheel_speed_, last_rate_, trust());
     }
     solve();
+  }
+
+  MapFix mapped(const GnssFix& fix) {
+    MapFix map_fix = in_map(fix, *plane, options_.gnss, mounts_.baseline_angle, scatter_, events);
+    const Eigen::Vector3d arm_map = has_started()
+                                        ? Eigen::Vector3d(imu_.attitude() * mounts_.antenna_body)
+                                        : Eigen::Vector3d::Zero();
+    if (!fix.covariance_enu || !options_.gnss.use_covariance) ++without_covariance_;
+    scatter_.add(fix.stamp, map_fix.p_antenna_map, arm_map);
+    if (is_paired(options_)) map_fix.covariance *= kPairedVariance;
+    return map_fix;
   }
 
   void set_origin(const GnssFix& fix) {
@@ -252,8 +338,9 @@ class Navigation::Impl {
     const Eigen::Matrix2d P =
         smoother_->covariance().block<2, 2>(NavState::kPosition, NavState::kPosition);
     by_gnss_.constrain(*smoother_, fix, motion, first_sigma_, frames_.newest(), events);
+    if (!frames_.newest().gnss.is_rejected) believed_fix_ = fix.stamp;
     if (ends_outage) report_outage(std::sqrt(P.trace()));
-    if (is_pairing_alike(options_) && !last_was_by_gnss_) constrain_last_by(fix);
+    if (is_paired(options_) && !last_was_by_gnss_) constrain_last_by(fix);
     last_fix_ = fix;
   }
 
@@ -271,8 +358,15 @@ class Navigation::Impl {
 
   void constrain_by_wheels() {
     if (!options_.wheels.use) return;
-    by_wheels_.constrain(*smoother_, wheel_speed_, imu_.last()->angular_rate, frames_.newest(),
-                         events);
+    by_wheels_.constrain(*smoother_, wheel_speed_, imu_.last()->angular_rate, trust(),
+                         frames_.newest(), events);
+  }
+
+  WheelConstraint::Trust trust() const {
+    const Stamp now = smoother_->newest().stamp;
+    const bool has_fixes =
+        believed_fix_ && seconds_between(*believed_fix_, now) <= options_.gnss.longest_rejection_s;
+    return {now, has_fixes, by_gnss_.has_heading(now)};
   }
 
   void report_outage(double sigma_m) {
@@ -293,7 +387,9 @@ class Navigation::Impl {
   double gravity_;
   std::optional<NavigationStart> start_;
   std::string note_;
-  NavState::Tangent first_sigma_;  ///< and that of a start in motion, whichever is larger
+  std::optional<Stamp> first_imu_, begun_, failed_at_;
+  std::size_t without_covariance_ = 0;  ///< fixes
+  NavState::Tangent first_sigma_;       ///< and that of a start in motion, whichever is larger
   bool is_georeferenced_ = true;
   std::optional<FixedLagSmoother> smoother_;
   ImuLink imu_;
@@ -303,6 +399,9 @@ class Navigation::Impl {
   WheelConstraint by_wheels_;
   OutageSchedule outages_;
   std::optional<MapFix> last_fix_;
+  std::optional<Stamp> believed_fix_;
+  FixScatter scatter_;
+  FirstFixes first_fixes_;
   bool last_was_by_gnss_ = false;                         ///< what made the state before the newest
   Eigen::Vector3d state_rate_ = Eigen::Vector3d::Zero();  ///< at the newest state
   Eigen::Vector3d last_rate_ = Eigen::Vector3d::Zero();   ///< at the one before
@@ -322,6 +421,7 @@ std::vector<NavFrame> Navigation::finish() { return impl_->finish(); }
 std::string Navigation::start_note() const { return impl_->start_note(); }
 const std::optional<geodesy::LocalTangentPlane>& Navigation::plane() const { return impl_->plane; }
 const std::map<std::string, std::size_t>& Navigation::events() const { return impl_->events; }
+std::vector<Fact> Navigation::facts() const { return impl_->facts(); }
 const std::vector<OutageResult>& Navigation::outages() const { return impl_->outage_results; }
 
 }  // namespace traverse::inertial

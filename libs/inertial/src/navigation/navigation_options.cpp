@@ -21,7 +21,7 @@ constexpr std::array<std::pair<std::string_view, Trigger>, 2> kTriggers{
 constexpr std::array<std::pair<std::string_view, WindowOutput>, 2> kOutputs{
     {{"newest", WindowOutput::kNewest}, {"oldest", WindowOutput::kOldest}}};
 constexpr std::array<std::pair<std::string_view, Pairing>, 2> kPairings{
-    {{"own", Pairing::kOwn}, {"alike", Pairing::kAlike}}};
+    {{"own", Pairing::kOwn}, {"paired", Pairing::kPaired}}};
 
 void bind_common(Binder& b, NavigationOptions& o, bool with_length) {
   b.choice("trigger", o.trigger, kTriggers, "measurement that creates a state");
@@ -52,13 +52,17 @@ void bind(Binder& b, GnssOptions& o) {
   b.flag("use", o.use, "use GNSS fixes");
   b.choice("form", o.form, kGnssForms,
            "position of the antenna and heading, or the book's six-row pose");
-  b.number("horizontal_m", o.horizontal_m, Range::positive(),
-           "standard deviation where the fix has none");
-  b.number("vertical_m", o.vertical_m, Range::positive(),
-           "standard deviation where the fix has none");
+  b.number("horizontal_m", o.horizontal_m, Range::non_negative(),
+           "standard deviation where the fix has none; 0: by how much fixes scatter");
+  b.number("vertical_m", o.vertical_m, Range::non_negative(),
+           "standard deviation where the fix has none; 0: by how much fixes scatter");
   b.flag("use_covariance", o.use_covariance, "use the covariance of a fix where it has one");
   b.flag("use_heading", o.use_heading, "use the heading of a dual antenna");
   b.number("heading_deg", o.heading_deg, Range::positive(), "standard deviation of a heading");
+  b.number("tilt_deg", o.tilt_deg, Range::positive(),
+           "standard deviation of roll and pitch of the book's pose");
+  b.flag("level_pose", o.level_pose,
+         "the book's pose as it stands there: level, with heading_deg for roll and pitch too");
   b.number("bias_horizontal_m", o.bias_horizontal_m, Range::positive(),
            "standard deviation of the slowly varying error of fixes, which is estimated");
   b.number("bias_vertical_m", o.bias_vertical_m, Range::positive(), "the same");
@@ -69,8 +73,8 @@ void bind(Binder& b, GnssOptions& o) {
   b.number("latency_walk", o.latency_walk, Range::positive(),
            "random walk of the latency, s/sqrt(s)");
   b.flag("gate", o.gate, "reject fixes by a chi-square test (0.1 %)");
-  b.integer("max_rejected", o.max_rejected, Range::between(1, 100000),
-            "fixes rejected in a row; the next one is used without the test");
+  b.number("longest_rejection_s", o.longest_rejection_s, Range::positive(),
+           "time without a fix that is believed, after which those rejected are judged together");
   b.number("huber", o.huber, Range::non_negative(),
            "Huber threshold in standard deviations; 0: least squares");
 }
@@ -120,14 +124,15 @@ void bind(Binder& b, WindowOptions& o) {
 void bind(Binder& b, StartOptions& o) {
   b.group("stand_still", "detection of stand-still", [&](Binder& g) { bind(g, o.stand_still); });
   b.number("course_m", o.course_m, Range::positive(),
-           "distance between two fixes that gives a heading");
-  b.number("course_s", o.course_s, Range::positive(), "longest time between these fixes");
+           "distance between two fixes of unknown standard deviation that gives a heading");
+  b.number("course_s", o.course_s, Range::positive(),
+           "longest time between two fixes that give a heading");
   b.number("gnss_wait_s", o.gnss_wait_s, Range::non_negative(),
            "time without a fix after which dead reckoning starts from a stand-still");
   b.number("tilt_deg", o.tilt_deg, Range::positive(),
            "standard deviation of roll and pitch when started in motion");
   b.number("heading_deg", o.heading_deg, Range::positive(),
-           "standard deviation of a heading from fixes");
+           "standard deviation of a heading from fixes, at least and, to start by it, at most");
   b.number("gyro_bias", o.gyro_bias, Range::positive(),
            "standard deviation when started in motion, rad/s");
   b.number("accelerometer_bias", o.accelerometer_bias, Range::positive(),

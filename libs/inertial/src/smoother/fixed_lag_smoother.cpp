@@ -14,13 +14,19 @@ namespace {
 using Matrix = NavState::Matrix;
 using Cholesky = Eigen::LLT<Matrix>;
 
+/// Informations of 1e-2 to 1e12 stand in one matrix: what a Schur complement loses in rounding may
+/// be all that a weak unknown has. A share of each unknown's own information, so small that it is
+/// rounding too, then stands in for it.
 Cholesky factorised(const Matrix& H) {
+  constexpr double kRounding = 1e-14;  // of a double, 22 products and their sum
+  constexpr double kMost = 1e-8;
   Cholesky llt(H);
-  if (llt.info() != Eigen::Success) {
-    throw std::runtime_error(
-        "navigation: the states cannot be solved for, their information is not "
-        "positive definite");
+  for (double share = kRounding; llt.info() != Eigen::Success && share <= kMost; share *= 10) {
+    Matrix loaded = H;
+    loaded.diagonal() += share * H.diagonal().cwiseAbs();
+    llt.compute(loaded);
   }
+  if (llt.info() != Eigen::Success || !llt.matrixLLT().allFinite()) throw NotSolvable();
   return llt;
 }
 
@@ -127,12 +133,6 @@ void FixedLagSmoother::add_to_last(std::unique_ptr<StateFactor> factor) {
   nodes_[nodes_.size() - 2].factors.push_back(std::move(factor));
 }
 
-std::vector<FactorType> FixedLagSmoother::factors_of(std::size_t k) const {
-  std::vector<FactorType> types;
-  for (const auto& factor : nodes_[k].factors) types.push_back(factor->type());
-  return types;
-}
-
 void FixedLagSmoother::reintegrate_where_biases_moved() {
   for (std::size_t k = 0; k + 1 < nodes_.size(); ++k) {
     Node& node = nodes_[k];
@@ -204,7 +204,8 @@ FixedLagSmoother::Solution FixedLagSmoother::solve() {
     }
     reintegrate_where_biases_moved();
     if (damping == 0) information_ = symmetric(rows.back().H);
-    if (damping == 0 && step < options_.converged_step) break;
+    solution.converged = damping == 0 && step < options_.converged_step;
+    if (solution.converged) break;
     damping = damping <= kFirstDamping ? 0 : damping / 10;
   }
   if (damping > 0) {  // the last system was not the one that counts
@@ -213,6 +214,9 @@ FixedLagSmoother::Solution FixedLagSmoother::solve() {
     information_ = symmetric(rows.back().H);
   }
   covariance_ = factorised(information_).solve(Matrix::Identity());
+  solution.covariance = covariance_;
+  solution.reason = solution.converged ? optimization::Termination::kConverged
+                                       : optimization::Termination::kIterationLimit;
   if (nodes_.size() > 1) solution.inertial_chi2 = link_terms(0).inertial_chi2;
   return solution;
 }

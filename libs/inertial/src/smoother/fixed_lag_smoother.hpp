@@ -4,13 +4,25 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 #include "traverse/inertial/navigation_options.hpp"
+#include "traverse/optimization/termination.hpp"
 
-#include "factors/state_factors.hpp"
+#include "factors/preintegration.hpp"
+#include "factors/state_factor.hpp"
 
 namespace traverse::inertial {
+
+/// The normal equations tell nothing of an unknown, or are not finite.
+class NotSolvable : public std::runtime_error {
+ public:
+  NotSolvable()
+      : std::runtime_error(
+            "navigation: the states cannot be solved for, their information is not positive "
+            "definite") {}
+};
 
 /// How fast what should be constant may change, standard deviation a sqrt(s), and how the bias of
 /// fixes comes and goes.
@@ -37,9 +49,15 @@ CalibrationWalk calibration_walk(const NavigationOptions& options);
 class FixedLagSmoother {
  public:
   struct Solution {
+    /// The last step, undamped, moved no unknown by converged_step or more.
+    bool converged = false;
+    optimization::Termination reason = optimization::Termination::kNotRun;
     int iterations = 0;
     double cost = 0;           ///< half the sum of squares, robust
     double inertial_chi2 = 0;  ///< of the oldest link, which has measurements to both sides; 9 rows
+    /// Of the newest state, with all its factors, in its tangent (NavState::Part): rotation on the
+    /// right [rad, body] first, then position [m], velocity [m/s], ... in the map frame.
+    NavState::Matrix covariance = NavState::Matrix::Zero();
   };
 
   FixedLagSmoother(const WindowOptions& options, const ImuNoise& noise,
@@ -62,7 +80,7 @@ class FixedLagSmoother {
   /// Constrains the state before the newest. \pre size() > 1
   void add_to_last(std::unique_ptr<StateFactor> factor);
 
-  /// \throws std::runtime_error if the normal equations are not positive definite
+  /// \throws NotSolvable if the normal equations are not positive definite
   Solution solve();
 
   std::size_t size() const { return nodes_.size(); }
@@ -76,8 +94,6 @@ class FixedLagSmoother {
   const NavState::Matrix& covariance() const { return covariance_; }
   /// Of every state, by what the whole window knows; after solve().
   std::vector<NavState::Matrix> covariances() const;
-  /// The types of the factors of state k.
-  std::vector<FactorType> factors_of(std::size_t k) const;
 
  private:
   using Matrix = NavState::Matrix;

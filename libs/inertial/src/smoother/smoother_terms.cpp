@@ -3,6 +3,9 @@
 #include <cmath>
 #include <utility>
 
+#include "residuals/inertial.hpp"
+#include "residuals/prior.hpp"
+#include "residuals/walk.hpp"
 #include "smoother/fixed_lag_smoother.hpp"
 
 namespace traverse::inertial {
@@ -38,7 +41,7 @@ double FixedLagSmoother::add_state_terms(std::size_t k, BlockRow& row) const {
   }
   if (k == 0) {
     Jacobian<NavState::kTangent> d;
-    prior_residual(prior_.at, at, &d);
+    PriorResidual{prior_.at}(at, &d);
     const Matrix W = prior_.weight * d;
     const Tangent e = prior_.weight * node.x.minus(prior_.at) + prior_.offset;
     row.H.noalias() += W.transpose() * W;
@@ -56,8 +59,9 @@ FixedLagSmoother::LinkTerms FixedLagSmoother::link_terms(std::size_t k) const {
   Jacobian<9> Jj;
   const NavState& at_i = derived_at(i);
   const NavState& at_j = derived_at(j);
-  Residual<9> r = inertial_residual(*link.imu, gravity_map_, at_i, at_j, &Ji, &Jj);
-  if (&at_i != &i.x || &at_j != &j.x) r = inertial_residual(*link.imu, gravity_map_, i.x, j.x);
+  const InertialResidual inertial{link.imu, gravity_map_};
+  Residual<9> r = inertial(at_i, at_j, &Ji, &Jj);
+  if (&at_i != &i.x || &at_j != &j.x) r = inertial(i.x, j.x);
   r = (link.weight * r).eval();
   const Jacobian<9> Wi = link.weight.triangularView<Eigen::Lower>() * Ji;
   const Jacobian<9> Wj = link.weight.triangularView<Eigen::Lower>() * Jj;
@@ -77,9 +81,9 @@ FixedLagSmoother::LinkTerms FixedLagSmoother::link_terms(std::size_t k) const {
       Eigen::Vector3d::Constant(link.accelerometer_walk), link.scale_walk,
       Eigen::Vector2d::Constant(link.turn_walk), link.latency_walk, link.gnss_walk;
   Eigen::Matrix<double, kWalks, 1> d;
-  d << gyro_bias_walk_residual(i.x, j.x), accelerometer_bias_walk_residual(i.x, j.x),
-      wheel_scale_walk_residual(i.x, j.x), wheel_turn_walk_residual(i.x, j.x),
-      gnss_latency_walk_residual(i.x, j.x), gnss_bias_walk_residual(link.gnss_decay, i.x, j.x);
+  d << GyroBiasWalk{}(i.x, j.x), AccelerometerBiasWalk{}(i.x, j.x), WheelScaleWalk{}(i.x, j.x),
+      WheelTurnWalk{}(i.x, j.x), GnssLatencyWalk{}(i.x, j.x),
+      GnssBiasWalk{link.gnss_decay}(i.x, j.x);
   const Eigen::Matrix<double, kWalks, 1> squares = w.cwiseAbs2();
   Eigen::Matrix<double, kWalks, 1> a = Eigen::Matrix<double, kWalks, 1>::Ones();
   a.tail<3>().setConstant(link.gnss_decay);
@@ -125,14 +129,13 @@ double FixedLagSmoother::cost() const {
     if (k + 1 == nodes_.size()) break;
     const NavState& j = nodes_[k + 1].x;
     const Link& link = i.to_next;
-    twice += (link.weight * inertial_residual(*link.imu, gravity_map_, i.x, j)).squaredNorm();
-    twice += (link.gyro_walk * gyro_bias_walk_residual(i.x, j)).squaredNorm();
-    twice += (link.accelerometer_walk * accelerometer_bias_walk_residual(i.x, j)).squaredNorm();
-    twice += (link.scale_walk * wheel_scale_walk_residual(i.x, j)).squaredNorm();
-    twice += (link.turn_walk * wheel_turn_walk_residual(i.x, j)).squaredNorm();
-    twice += (link.latency_walk * gnss_latency_walk_residual(i.x, j)).squaredNorm();
-    twice +=
-        link.gnss_walk.cwiseProduct(gnss_bias_walk_residual(link.gnss_decay, i.x, j)).squaredNorm();
+    twice += (link.weight * InertialResidual{link.imu, gravity_map_}(i.x, j)).squaredNorm();
+    twice += (link.gyro_walk * GyroBiasWalk{}(i.x, j)).squaredNorm();
+    twice += (link.accelerometer_walk * AccelerometerBiasWalk{}(i.x, j)).squaredNorm();
+    twice += (link.scale_walk * WheelScaleWalk{}(i.x, j)).squaredNorm();
+    twice += (link.turn_walk * WheelTurnWalk{}(i.x, j)).squaredNorm();
+    twice += (link.latency_walk * GnssLatencyWalk{}(i.x, j)).squaredNorm();
+    twice += link.gnss_walk.cwiseProduct(GnssBiasWalk{link.gnss_decay}(i.x, j)).squaredNorm();
   }
   return twice / 2;
 }

@@ -9,7 +9,7 @@
 #include "traverse/geodesy/local_tangent_plane.hpp"
 #include "traverse/inertial/nav_state.hpp"
 #include "traverse/inertial/navigation_options.hpp"
-#include "traverse/inertial/residuals.hpp"
+#include "traverse/inertial/wheel_mount.hpp"
 #include "traverse/sensors/gnss_fix.hpp"
 #include "traverse/sensors/imu_sample.hpp"
 #include "traverse/sensors/wheel_encoder.hpp"
@@ -46,6 +46,7 @@ struct NavFrame {
   double outage_error_m = 0;     ///< horizontal, at the first fix after one; else 0
   double outage_distance_m = 0;  ///< travelled in it
   int iterations = 0;
+  bool converged = false;  ///< the last solution: its last step was below window.converged_step
   int states = 0;
 };
 
@@ -55,6 +56,12 @@ struct OutageResult {
   double distance_m = 0;  ///< travelled
   double error_m = 0;     ///< horizontal, to the first fix after it
   double sigma_m = 0;     ///< that the estimate gave itself, horizontal
+};
+
+/// Something that was found out, in words.
+struct Fact {
+  std::string name;
+  std::string value;
 };
 
 /// A navigation estimator on IMU pre-integration, GNSS and wheels: a fixed-lag smoother over a
@@ -90,6 +97,8 @@ class Navigation {
   /// What was not used or not usual, by what it was: "fix rejected by chi-square".
   const std::map<std::string, std::size_t>& events() const;
   const std::vector<OutageResult>& outages() const;
+  /// What was taken for true and who says so: the deviation of fixes that tell none.
+  std::vector<Fact> facts() const;
 
  private:
   class Impl;

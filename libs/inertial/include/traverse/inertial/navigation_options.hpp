@@ -19,16 +19,24 @@ enum class Trigger { kGnss, kGnssAndWheels };
 /// What constrains the two states of Trigger::kGnssAndWheels: each what made it, or both what made
 /// the later one; the earlier one then by the line between two fixes, or by the wheels' speed less
 /// what the IMU says that it changed by. The second takes measurements twice, at half their weight.
-enum class Pairing { kOwn, kAlike };
+enum class Pairing { kOwn, kPaired };
 
 struct GnssOptions {
   bool use = true;
   GnssForm form = GnssForm::kPosition;
-  double horizontal_m = 1;  ///< standard deviations, where the fix has no covariance
-  double vertical_m = 2;
+  /// Standard deviations, where the fix has no covariance; 0: what the fixes scatter by.
+  double horizontal_m = 0;
+  double vertical_m = 0;
   bool use_covariance = true;  ///< of the fix, where it has one that is positive definite
   bool use_heading = true;
   double heading_deg = 0.3;
+  /// Of roll and pitch in GnssForm::kPose, which a heading does not tell. A slope lasts for dozens
+  /// of fixes, each of which calls it level in the same way: a road's 3 degrees, said a hundred
+  /// times as if anew, weigh as those of one fix with sqrt(100) times the deviation.
+  double tilt_deg = 30;
+  /// The book's literal pose: level, whatever the estimate says; the antenna's place is moved to
+  /// the body as if there were no slope, and heading, roll and pitch have the same deviation.
+  bool level_pose = false;
   double bias_horizontal_m = 0.001;  ///< standard deviations of what fixes err by for long
   double bias_vertical_m = 0.001;
   double bias_s = 60;             ///< time after which a share of 1/e of that is left
@@ -36,8 +44,9 @@ struct GnssOptions {
   double latency_sigma_s = 1e-4;  ///< standard deviation; what is left of it is estimated
   double latency_walk = 1e-5;     ///< s a sqrt(s)
   bool gate = true;               ///< leave out what chi-square finds too unlikely (0.1 %)
-  int max_rejected = 20;          ///< in a row; the next is taken, whatever it says
-  double huber = 3;               ///< standard deviations; 0 for plain least squares
+  /// Without a fix that is believed, seconds; those that were not are then judged together.
+  double longest_rejection_s = 2;
+  double huber = 3;  ///< standard deviations; 0 for plain least squares
 };
 void bind(config::Binder& binder, GnssOptions& options);
 
@@ -80,11 +89,11 @@ void bind(config::Binder& binder, WindowOptions& options);
 /// What is known before anything moves, and how long to wait for it.
 struct StartOptions {
   StandStillOptions stand_still;
-  double course_m = 3;              ///< way between two fixes that gives a heading
-  double course_s = 2;              ///< longest time between them
+  double course_m = 3;              ///< way between two fixes of unknown deviation for a heading
+  double course_s = 5;              ///< longest time between them
   double gnss_wait_s = 10;          ///< without a fix; then the wheels and the IMU must do
   double tilt_deg = 3;              ///< standard deviation of roll and pitch, started in motion
-  double heading_deg = 5;           ///< of a heading from two fixes
+  double heading_deg = 5;           ///< of a heading from two fixes, at least; what is surer starts
   double gyro_bias = 0.02;          ///< rad/s, started in motion
   double accelerometer_bias = 0.2;  ///< m/s^2
 };

@@ -4,8 +4,9 @@
 #include <Eigen/Geometry>
 #include <ceres/sized_cost_function.h>
 
-#include "traverse/inertial/residuals.hpp"
 #include "traverse/optimization/rotation_manifold.hpp"
+
+#include "residuals/residual.hpp"
 
 /// A NavState as Ceres' parameter blocks, in this order: quaternion [x y z w] of R_map_body on
 /// RotationManifold, position, velocity, gyro bias, accelerometer bias, wheel scale, wheel
@@ -54,7 +55,7 @@ void spread(const Jacobian<N>& J, const NavState& x, double** blocks) {
   put.template operator()<3>(blocks[8], J.template middleCols<3>(NavState::kGnssBias));
 }
 
-/// A residual of one state for Ceres. Model as in ModelFactor.
+/// A residual of one state for Ceres. Model: a residual as residual.hpp says.
 template <typename Model>
 class StateCost final : public ceres::SizedCostFunction<Model::kSize, 4, 3, 3, 3, 3, 1, 2, 1, 3> {
  public:

@@ -1,4 +1,4 @@
-#include "factors/factor_view.hpp"
+#include "residuals/factor_view.hpp"
 
 namespace traverse::inertial {
 

@@ -12,10 +12,8 @@
 
 #include "traverse/optimization/factor_kind.hpp"
 
-#include "factors/automatic_models.hpp"
-#include "factors/link_models.hpp"
-#include "factors/state_factors.hpp"
-#include "smoother/state_blocks.hpp"
+#include "residuals/automatic_state.hpp"
+#include "residuals/state_blocks.hpp"
 
 /// How the factors of one or two states, whose cost functions take every block of them, are shown
 /// to the check of Jacobians with the blocks alone that they depend on.
@@ -23,8 +21,26 @@ namespace traverse::inertial {
 
 inline constexpr std::array<int, kStateBlocks> kBlockSizes{4, 3, 3, 3, 3, 1, 2, 1, 3};
 
-/// Parts of one or two states (numbers below or from kStateBlocks) that a factor depends on, and
-/// the rows of the residual that are looked at.
+/// The parts of a state, in the order of its blocks.
+namespace block {
+enum Block : int {
+  kRotation,
+  kPosition,
+  kVelocity,
+  kGyroBias,
+  kAccelerometerBias,
+  kWheelScale,
+  kWheelTurn,
+  kGnssLatency,
+  kGnssBias
+};
+}  // namespace block
+
+/// The same part of the second state.
+constexpr int of_j(int block) { return block + kStateBlocks; }
+
+/// Parts of one or two states that a factor depends on, and the rows of the residual that are
+/// looked at.
 struct FactorView {
   std::vector<int> blocks;
   int first_row = 0;

@@ -1,0 +1,131 @@
+// Who is believed: fixes that were rejected, wheels that jumped, what fixes scatter by, first
+// fixes.
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "factors/rejected_fixes.hpp"
+#include "factors/wheel_jumps.hpp"
+#include "inertial/moment.hpp"
+#include "navigation/first_fixes.hpp"
+#include "navigation/fix_scatter.hpp"
+
+namespace traverse::inertial {
+namespace {
+
+using testing::moment;
+
+TEST(RejectedFixes, LieOnALineWhereTheyAgreeWithEachOther) {
+  RejectedFixes fixes;
+  const Eigen::Matrix3d R = 0.01 * Eigen::Matrix3d::Identity();
+  for (int k = 0; k < 25; ++k) {
+    if (k < 20) {
+      EXPECT_FALSE(fixes.line(2).has_value()) << k;
+    }
+    fixes.add(moment(0.1 * k), {5 + 0.2 * k, 1, -2}, R);
+  }
+  const auto line = fixes.line(2);
+  ASSERT_TRUE(line.has_value());
+  EXPECT_LT((line->offset - Eigen::Vector3d(5 + 0.2 * 24, 1, -2)).norm(), 1e-9);
+  EXPECT_LT((line->slope - Eigen::Vector3d(2, 0, 0)).norm(), 1e-9);
+  EXPECT_LT((line->of_fix - R).norm(), 1e-9) << "they scatter less than they say";
+  // Of the value of a line at its last point: about 4 of a fix's variance by their number.
+  EXPECT_NEAR(line->of_offset(0, 0), 4 * 0.01 / 21, 2e-4);
+}
+
+TEST(RejectedFixes, ThatScatterAreAsGoodAsTheirScatter) {
+  RejectedFixes fixes;
+  std::mt19937 generator(1);
+  std::normal_distribution<double> normal;
+  for (int k = 0; k < 400; ++k) {
+    fixes.add(moment(0.01 * k), 3 * Eigen::Vector3d(normal(generator), normal(generator), 0),
+              1e-4 * Eigen::Matrix3d::Identity());
+  }
+  const auto line = fixes.line(3.9);
+  ASSERT_TRUE(line.has_value());
+  EXPECT_NEAR(std::sqrt(line->of_fix(0, 0)), 3, 0.3);
+  EXPECT_LT(std::abs(line->offset.x()), 3.3 * std::sqrt(line->of_offset(0, 0)));
+}
+
+TEST(WheelJumps, AWheelThatLocksIsToBlameUntilItGrips) {
+  for (const double slipping_mps : {-5.0, 5.0}) {  // the estimate's speed less the wheels'
+    WheelJumps jumps(0.05);
+    double t = 0;
+    const auto add = [&](double excess) { jumps.add(moment(t += 0.1), excess); };
+    for (int k = 0; k < 10; ++k) add(0.02);
+    EXPECT_FALSE(jumps.has_jumped());
+    add(0.6 * slipping_mps);  // in the middle of a reading
+    add(slipping_mps);
+    EXPECT_TRUE(jumps.has_jumped());
+    for (int k = 0; k < 30; ++k) add(slipping_mps);
+    EXPECT_TRUE(jumps.has_jumped());
+    add(0.04);
+    EXPECT_FALSE(jumps.has_jumped()) << "it has jumped back";
+  }
+}
+
+TEST(WheelJumps, AnEstimateThatDriftsIsNoJump) {
+  WheelJumps jumps(0.05);
+  for (int k = 0; k < 100; ++k) jumps.add(moment(0.1 * k), 0.03 * k);
+  EXPECT_FALSE(jumps.has_jumped());
+}
+
+TEST(FixScatter, FindsTheDeviationOfFixesOnAnyMotion) {
+  for (const double hz : {1.0, 5.0, 10.0, 50.0}) {
+    for (const double sigma : {0.015, 0.5}) {
+      FixScatter scatter;
+      std::mt19937 generator(3);
+      std::normal_distribution<double> normal;
+      const auto v = [](double t) {
+        return Eigen::Vector3d(8 * std::sin(0.5 * t), 8 * std::cos(0.3 * t), 0);
+      };
+      const auto p = [](double t) {
+        return Eigen::Vector3d(-16 * std::cos(0.5 * t), 8 / 0.3 * std::sin(0.3 * t), 0);
+      };
+      double next = 0;
+      int fixes = 0;
+      for (int k = 1; fixes < 120; ++k) {
+        const double t = 0.01 * k;
+        scatter.add_motion(0.01, v(t) - v(t - 0.01) + Eigen::Vector3d(3e-4, 0, 0));  // a tilt
+        if (t < next) continue;
+        next += 1 / hz;
+        ++fixes;
+        Eigen::Vector3d z = p(t) + sigma * Eigen::Vector3d(normal(generator), normal(generator),
+                                                           2 * normal(generator));
+        if (fixes % 15 == 0) z.x() += 40;  // an outlier
+        scatter.add(moment(t), z, Eigen::Vector3d::Zero());
+      }
+      const auto found = scatter.sigma();
+      if (hz == 50) {
+        EXPECT_LE(scatter.fixes(), 24U - 3) << "one in five, 0.1 s apart";
+        continue;
+      }
+      ASSERT_TRUE(found.has_value());
+      // A seventh of them is off, and four differences with each.
+      EXPECT_NEAR(found->horizontal_m, sigma, 0.4 * sigma) << hz;
+      EXPECT_NEAR(found->vertical_m, 2 * sigma, 0.7 * sigma) << hz;
+    }
+  }
+}
+
+TEST(FirstFixes, TheFirstThatTheNextAgreesWithMakesTheOrigin) {
+  const auto fix = [](double seconds, double latitude) {
+    sensors::GnssFix result;
+    result.stamp = moment(seconds);
+    result.latitude_deg = latitude;
+    return result;
+  };
+  FirstFixes first;
+  Events events;
+  EXPECT_FALSE(first.add(fix(0, 20), events).has_value());
+  EXPECT_FALSE(first.add(fix(0.1, 48.001), events).has_value());
+  const auto origin = first.add(fix(0.2, 48.0011), events);  // 11 m
+  ASSERT_TRUE(origin.has_value());
+  EXPECT_EQ(origin->latitude_deg, 48.001);
+  EXPECT_EQ(events.at("first fix that the next does not agree with"), 1U);
+}
+
+}  // namespace
+}  // namespace traverse::inertial
