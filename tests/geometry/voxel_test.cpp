@@ -2,8 +2,11 @@
 
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include <gtest/gtest.h>
+
+#include "traverse/geometry/voxel_set.hpp"
 
 namespace traverse::geometry {
 namespace {
@@ -26,6 +29,26 @@ TEST(VoxelKey, DiffersForAllCellsAround) {
 
 TEST(VoxelKey, CoordinatesBeyondAllCountingShareACell) {
   EXPECT_EQ(voxel_key({1e300, -1e300, std::nan("")}, 0.2), voxel_key({0, 0, 0}, 0.2));
+}
+
+TEST(VoxelSet, TellsTheFirstPointOfEachVoxelFromThoseThatFollow) {
+  VoxelSet voxels(0.5);
+  EXPECT_TRUE(voxels.insert({0.1, 0.1, 0.1}));
+  EXPECT_FALSE(voxels.insert({0.4, 0.4, 0.4}));
+  EXPECT_FALSE(voxels.insert({0.1, 0.1, 0.1}));
+  EXPECT_TRUE(voxels.insert({0.1, 0.1, -0.1})) << "below zero is another voxel";
+  EXPECT_TRUE(voxels.insert({0.6, 0.1, 0.1}));
+  EXPECT_EQ(voxels.size(), 3U);
+}
+
+TEST(VoxelSet, HoldsMoreThanWasSaid) {
+  VoxelSet voxels(1, 2);
+  for (int x = 0; x < 1000; ++x) EXPECT_TRUE(voxels.insert({x + 0.5, 0, 0}));
+  for (int x = 0; x < 1000; ++x) EXPECT_FALSE(voxels.insert({x + 0.25, 0, 0}));
+  VoxelSet moved = std::move(voxels);
+  EXPECT_EQ(moved.size(), 1000U);
+  moved = VoxelSet(1);
+  EXPECT_TRUE(moved.insert({0.5, 0, 0}));
 }
 
 }  // namespace

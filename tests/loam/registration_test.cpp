@@ -1,6 +1,12 @@
 #include "traverse/loam/registration.hpp"
 
+#include <cmath>
+#include <limits>
+#include <random>
+
 #include <gtest/gtest.h>
+
+#include "traverse/lidar/registration_health.hpp"
 
 #include "geometry/random_motion.hpp"
 #include "loam/room.hpp"
@@ -9,6 +15,7 @@
 namespace traverse::loam {
 namespace {
 
+using optimization::Termination;
 using testing::RandomMotion;
 using testing::Room;
 
@@ -103,6 +110,59 @@ TEST(SolvePose, WithoutEndWallsThePredictionStandsAlongTheAxis) {
   EXPECT_NEAR(result.T_map_lidar.translation.z(), 0, 0.01);
 }
 
+/// Points up to 20 m around on planes every way, each off its plane by noise.
+Matches noisy_planes(RandomMotion& random, const geometry::Pose3& truth, double sigma_m) {
+  std::mt19937 generator(static_cast<unsigned>(random.uniform(0, 1e9)));
+  std::normal_distribution<double> noise(0, sigma_m);
+  Matches matches;
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    const Eigen::Vector3d p = random.vector(20);
+    const Eigen::Vector3d n = random.vector(1).normalized();
+    matches.planes.push_back({i, p, Plane{n, -n.dot(truth * p) + noise(generator)}});
+  }
+  return matches;
+}
+
+/// With residuals that are independent noise the normalised squared error is a chi-square of six.
+TEST(SolvePose, CovarianceIsThatOfTheErrors) {
+  constexpr int kTrials = 200;
+  RandomMotion random(6);
+  SolverOptions options;
+  options.iterations = 50;
+  options.huber_m = 10;
+  double sum = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const geometry::Pose3 truth = random.pose(1, 5);
+    const Matches matches = noisy_planes(random, truth, 0.05);
+    const SolveResult result = solve_pose(matches, truth, options);
+    lidar::RegistrationHealth health;
+    health.plane_matches = matches.planes.size();
+    health.residual_rms_m = result.residual_rms_m;
+    health.observability = result.observability;
+    const geometry::Twist error = geometry::log_se3(truth.inverse() * result.T_map_lidar);
+    sum += error.dot(health.covariance().ldlt().solve(error));
+  }
+  // 95 % of the mean of 200 chi-squares of six.
+  EXPECT_NEAR(sum / kTrials, 6, 2 * std::sqrt(2.0 * 6 / kTrials));
+}
+
+TEST(SolvePose, SaysWhyItEnded) {
+  RandomMotion random(7);
+  const geometry::Pose3 truth = random.pose(0.3, 1);
+  const Matches matches = noisy_planes(random, truth, 0.01);
+  const geometry::Pose3 guess = truth * random.pose(0.1, 1);
+  SolverOptions options;
+  options.iterations = 50;
+  EXPECT_EQ(solve_pose(matches, guess, options).reason, Termination::kConverged);
+  options.iterations = 1;
+  EXPECT_EQ(solve_pose(matches, guess, options).reason, Termination::kIterationLimit);
+  EXPECT_TRUE(solve_pose(matches, guess, options).usable);
+  Matches broken = matches;
+  broken.planes.front().plane.offset = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(solve_pose(broken, guess, options).reason, Termination::kNotSolvable);
+  EXPECT_FALSE(solve_pose(broken, guess, options).usable);
+}
+
 TEST(SolvePose, TooFewMatchesLeaveTheGuess) {
   RandomMotion random(3);
   const geometry::Pose3 guess = random.pose(1, 5);
@@ -110,6 +170,7 @@ TEST(SolvePose, TooFewMatchesLeaveTheGuess) {
   matches.planes.resize(3, PlaneMatch{0, {1, 2, 3}, Plane{{0, 0, 1}, 0}});
   const SolveResult result = solve_pose(matches, guess, SolverOptions{});
   EXPECT_FALSE(result.usable);
+  EXPECT_EQ(result.reason, Termination::kTooFewMatches);
   EXPECT_EQ(result.T_map_lidar.matrix(), guess.matrix());
   EXPECT_EQ(result.observability.degenerate, 6);
 }

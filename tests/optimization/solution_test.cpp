@@ -36,6 +36,7 @@ TEST(Solution, TellsStepsAndTheTrustRegion) {
   const Solution solution = solve(quiet(), problem);
   EXPECT_TRUE(solution.is_usable);
   EXPECT_TRUE(solution.converged);
+  EXPECT_EQ(solution.reason, Termination::kConverged);
   EXPECT_GE(solution.iterations, 1);
   EXPECT_GT(solution.trust_region_radius.value(), 0);
   EXPECT_NEAR(x, 3, 1e-3);
@@ -58,6 +59,21 @@ TEST(Solution, WithNothingToMoveThereIsNoIteration) {
   EXPECT_EQ(x, 10);
 }
 
+TEST(Solution, OneWithoutIterationsLeftIsUsableAndSaysSo) {
+  double x = 10;
+  ceres::Problem problem;
+  problem.AddResidualBlock(new FromThree(true), nullptr, &x);
+  ceres::Solver::Options options = quiet();
+  options.max_num_iterations = 1;
+  options.initial_trust_region_radius = 1e-2;
+  const Solution solution = solve(options, problem);
+  EXPECT_TRUE(solution.is_usable);
+  EXPECT_FALSE(solution.converged);
+  EXPECT_EQ(solution.reason, Termination::kIterationLimit);
+  EXPECT_EQ(solution.iterations, 1);
+  EXPECT_LT(x, 10);
+}
+
 TEST(Solution, OneThatFailsSaysWhyAndMovesNothing) {
   for (const double start : {10.0, std::numeric_limits<double>::quiet_NaN()}) {
     double x = start;
@@ -66,6 +82,7 @@ TEST(Solution, OneThatFailsSaysWhyAndMovesNothing) {
     const Solution solution = solve(quiet(), problem);
     EXPECT_FALSE(solution.is_usable);
     EXPECT_FALSE(solution.converged);
+    EXPECT_EQ(solution.reason, Termination::kNotSolvable);
     EXPECT_EQ(solution.iterations, 0);
     EXPECT_FALSE(solution.trust_region_radius);
     EXPECT_FALSE(solution.message.empty());

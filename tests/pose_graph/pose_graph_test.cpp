@@ -29,6 +29,7 @@ TEST(PoseGraph, WithoutLoopsIsOdometry) {
   PoseGraph graph = testing::odometry_graph(drive);
   const Result result = graph.optimise();
   EXPECT_TRUE(result.converged);
+  EXPECT_EQ(result.reason, optimization::Termination::kConverged);
   EXPECT_EQ(result.loops, 0U);
   for (std::size_t k = 0; k < drive.odometry.size(); ++k) {
     EXPECT_LT(geometry::log_se3(drive.odometry[k].inverse() * graph.pose(k)).norm(), 1e-9);

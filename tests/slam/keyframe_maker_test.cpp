@@ -76,15 +76,5 @@ TEST(KeyframeMaker, LostFramesMakeTheStepUncertain) {
   EXPECT_GT(sigma_after(2), 0.9);
 }
 
-TEST(KeyframeMaker, AnUndeterminedDirectionIsUncertain) {
-  lidar::RegistrationHealth health = testing::good_health();
-  health.observability.directions.col(0).swap(health.observability.directions.col(3));  // along x
-  health.observability.eigenvalues[0] = 1e-6;
-  const geometry::Matrix6 covariance = registration_covariance(health);
-  EXPECT_GT(covariance(3, 3), 100 * covariance(4, 4));
-  EXPECT_NEAR(covariance(4, 4), 0.03 * 0.03 / (1100 * 0.1), 1e-12);
-  EXPECT_NEAR(covariance(1, 1), covariance(4, 4) / (10 * 10), 1e-15);
-}
-
 }  // namespace
 }  // namespace traverse::slam

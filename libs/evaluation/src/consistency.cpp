@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "traverse/evaluation/evaluation_error.hpp"
+#include "traverse/geometry/voxel_set.hpp"
 
 #include "consistency_totals.hpp"
-#include "first_of_voxel.hpp"
 
 namespace traverse::evaluation {
 
@@ -161,10 +161,10 @@ void ConsistencyScorer::add(std::span<const float> x, std::span<const float> y,
     throw EvaluationError("the map has more points than can be scored (4e9)");
   }
   first_number_of_scan_.push_back(static_cast<std::uint32_t>(points_.size()));
-  FirstOfVoxel is_first_of_voxel(occupied_);
+  geometry::VoxelSet voxels(consistency::kVoxel_m, x.size());
   for (std::size_t i = 0; i < x.size(); ++i) {
     const Eigen::Vector3d p_lidar(x[i], y[i], z[i]);
-    if (!in_range(p_lidar) || !is_first_of_voxel(p_lidar)) continue;
+    if (!in_range(p_lidar) || !voxels.insert(p_lidar)) continue;
     const Eigen::Vector3d p_map = T_map_lidar * p_lidar - p_map_origin_;
     const Eigen::Vector3d cell = (p_map / kRadius_m).array().floor();
     const Eigen::Vector3f in_cell_m = (p_map - cell * kRadius_m).cast<float>();

@@ -5,26 +5,25 @@
 
 #include <nanoflann.hpp>
 
+#include "traverse/geometry/kd_tree_points.hpp"
+
 namespace traverse::loam {
 
 namespace {
 
 constexpr std::size_t kSweepLeafSize = 20;
 
-/// What nanoflann asks of a point set.
-struct SweepPointSet {
+/// The points of a sweep, whose axes are stored one after the other.
+struct SweepAxes {
   const lidar::TimedPoints& points;
 
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const {
+  std::size_t size() const { return points.size(); }
+  double coordinate(std::size_t i, std::size_t axis) const {
     return double{axis == 0 ? points.x[i] : axis == 1 ? points.y[i] : points.z[i]};
-  }
-  template <typename Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
   }
 };
 
+using SweepPointSet = geometry::KdTreePoints<SweepAxes>;
 using SweepTree =
     nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, SweepPointSet>,
                                         SweepPointSet, 3, std::uint32_t>;
@@ -58,7 +57,7 @@ class NearestAccepted {
 struct LineIndex::Search {
   explicit Search(LinedPoints those)
       : points(std::move(those)),
-        set{points.points},
+        set{{points.points}},
         tree(3, set, nanoflann::KDTreeSingleIndexAdaptorParams(kSweepLeafSize)) {}
 
   int line(std::uint32_t i) const { return points.line[i]; }

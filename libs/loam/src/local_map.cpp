@@ -6,6 +6,7 @@
 
 #include <nanoflann.hpp>
 
+#include "traverse/geometry/kd_tree_points.hpp"
 #include "traverse/geometry/voxel.hpp"
 
 namespace traverse::loam {
@@ -15,20 +16,7 @@ namespace {
 constexpr std::size_t kLeafSize = 20;
 constexpr std::size_t kMostMapNeighbours = 16;
 
-/// What nanoflann asks of a point set.
-struct PointSet {
-  std::span<const Eigen::Vector3d> points;
-
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return points[i][static_cast<Eigen::Index>(axis)];
-  }
-  template <typename Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-
+using PointSet = geometry::KdTreePoints<std::span<const Eigen::Vector3d>>;
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointSet>,
                                                  PointSet, 3, std::uint32_t>;
 

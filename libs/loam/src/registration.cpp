@@ -92,6 +92,7 @@ SolveResult solve_pose(const Matches& matches, const geometry::Pose3& guess_T_ma
   result.T_map_lidar = guess_T_map_lidar;
   if (matches.size() < static_cast<std::size_t>(options.min_matches)) {
     result.observability.degenerate = 6;
+    result.reason = optimization::Termination::kTooFewMatches;
     return result;
   }
 
@@ -113,6 +114,7 @@ SolveResult solve_pose(const Matches& matches, const geometry::Pose3& guess_T_ma
   solver.logging_type = ceres::SILENT;
   const optimization::Solution solution = optimization::solve(solver, problem);
   result.iterations = solution.iterations;
+  result.reason = solution.reason;
   if (!solution.is_usable) return result;
 
   const geometry::Pose3 solved = blocks.pose();

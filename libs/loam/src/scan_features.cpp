@@ -2,10 +2,9 @@
 
 #include <bit>
 #include <cstdint>
-#include <tsl/robin_set.h>
 #include <vector>
 
-#include "traverse/geometry/voxel.hpp"
+#include "traverse/geometry/voxel_set.hpp"
 #include "traverse/sensors/sweep_timing.hpp"
 
 namespace traverse::loam {
@@ -44,10 +43,9 @@ void bind(config::Binder& b, ThinningOptions& o) {
 
 lidar::TimedPoints thinned(const lidar::TimedPoints& points, double voxel_m) {
   lidar::TimedPoints kept;
-  tsl::robin_set<std::uint64_t, geometry::VoxelHash> seen;
-  seen.reserve(points.size());
+  geometry::VoxelSet voxels(voxel_m, points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!seen.insert(geometry::voxel_key(points.point(i), voxel_m)).second) continue;
+    if (!voxels.insert(points.point(i))) continue;
     kept.push_back(points.x[i], points.y[i], points.z[i], points.time[i]);
   }
   return kept;

@@ -75,6 +75,7 @@ Registration ScanToMap::align(const ScanFeatures& features,
     result.health.residual_rms_m = solved.residual_rms_m;
     result.health.inlier_share = solved.inlier_share;
     result.health.registered = solved.usable;
+    result.health.end(solved.reason);
     if (!solved.usable) {
       result.T_map_lidar = guess_T_map_lidar;
       break;

@@ -161,6 +161,7 @@ ScanMotion ScanToScan::follow(const SweepFeatures& sweep, const MotionPrediction
     motion.health.residual_rms_m = solved.residual_rms_m;
     motion.health.inlier_share = solved.inlier_share;
     motion.health.registered = solved.usable;
+    motion.health.end(solved.reason);
     if (!solved.usable) {
       motion.T_last_current = prediction.T_last_current;
       break;

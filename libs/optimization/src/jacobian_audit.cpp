@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "traverse/optimization/shown_jacobians.hpp"
+
 #include "factor_derivatives.hpp"
 
 namespace traverse::optimization {
@@ -100,6 +102,22 @@ JacobianAudit audit_jacobians(std::span<const FactorKind> kinds, const AuditOpti
     }
   }
   return result;
+}
+
+ShownFactor show_jacobians(const FactorKind& kind, Perturbation perturbation,
+                           const AuditOptions& options) {
+  RandomStates random(options.seed);
+  const auto [sample, analytic] = draw(kind, perturbation, options.min_residual, random);
+  const Linearised automatic =
+      linearise(*sample.automatic, kind.blocks, perturbation, sample.state);
+  const auto numeric =
+      central_differences(*sample.analytic, kind.blocks, perturbation, sample.state);
+  ShownFactor shown{kind.name, kind.formula, perturbation, analytic.residual, {}};
+  for (std::size_t k = 0; k < kind.blocks.size(); ++k) {
+    shown.blocks.push_back(
+        {kind.blocks[k].name, analytic.jacobians[k], automatic.jacobians[k], numeric[k]});
+  }
+  return shown;
 }
 
 std::vector<FactorKind> selected(std::span<const FactorKind> kinds,

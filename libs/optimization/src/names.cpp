@@ -1,5 +1,6 @@
 #include "traverse/optimization/derivative.hpp"
 #include "traverse/optimization/perturbation.hpp"
+#include "traverse/optimization/termination.hpp"
 
 namespace traverse::optimization {
 
@@ -20,5 +21,9 @@ std::string_view name_of(Perturbation perturbation) {
 }
 
 std::string_view name_of(Derivative derivative) { return name_in(kDerivativeNames, derivative); }
+
+std::string_view name_of(Termination termination) {
+  return name_in(kTerminationNames, termination);
+}
 
 }  // namespace traverse::optimization

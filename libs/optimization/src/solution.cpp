@@ -4,12 +4,23 @@
 
 namespace traverse::optimization {
 
+namespace {
+
+Termination reason_of(const ceres::Solver::Summary& summary) {
+  if (!summary.IsSolutionUsable()) return Termination::kNotSolvable;
+  return summary.termination_type == ceres::CONVERGENCE ? Termination::kConverged
+                                                        : Termination::kIterationLimit;
+}
+
+}  // namespace
+
 Solution solve(const ceres::Solver::Options& options, ceres::Problem& problem) {
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   Solution solution;
   solution.is_usable = summary.IsSolutionUsable();
-  solution.converged = summary.termination_type == ceres::CONVERGENCE;
+  solution.reason = reason_of(summary);
+  solution.converged = solution.reason == Termination::kConverged;
   solution.message = std::move(summary.message);
   if (!summary.iterations.empty()) {  // the first one is the evaluation at the start
     solution.iterations = static_cast<int>(summary.iterations.size()) - 1;

@@ -103,6 +103,7 @@ Result PoseGraph::optimise(Start start) {
   if (ids_.empty()) {
     result.is_usable = true;
     result.converged = true;
+    result.reason = optimization::Termination::kConverged;
     result.message = "there is no node";
     return result;
   }

@@ -72,6 +72,7 @@ Result solve(const GraphParts& graph, Doubts doubts, const GraphOptions& options
            result.iterations < 4 * options.max_iterations);
   result.is_usable = solution.is_usable;
   result.converged = solution.converged;
+  result.reason = solution.reason;
   result.message = std::move(solution.message);
   if (result.is_usable) problem.take_solution(state);
   return result;

@@ -6,7 +6,6 @@
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
-#include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationPointCloud.h>
@@ -55,17 +54,8 @@ mrpt::obs::CObservationPointCloud::Ptr observation(const char* label, geometry::
   return result;
 }
 
-mrpt::maps::CPointsMap::Ptr with_intensity(const KeyframePoints& from) {
-  auto points = mrpt::maps::CPointsMapXYZI::Create();
-  points->reserve(from.size());
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    points->insertPointFast(from.x[i], from.y[i], from.z[i]);
-    if (!from.intensity.empty()) points->setPointIntensity(i, from.intensity[i]);
-  }
-  return points;
-}
-
-mrpt::maps::CPointsMap::Ptr plain(const voxel_map::SweepPoints& from) {
+template <typename Points>
+mrpt::maps::CPointsMap::Ptr plain(const Points& from) {
   auto points = mrpt::maps::CSimplePointsMap::Create();
   points->reserve(from.size());
   for (std::size_t i = 0; i < from.size(); ++i) {
@@ -76,8 +66,9 @@ mrpt::maps::CPointsMap::Ptr plain(const voxel_map::SweepPoints& from) {
 
 mrpt::obs::CSensoryFrame::Ptr sensory_frame(const Keyframe& keyframe) {
   auto frame = mrpt::obs::CSensoryFrame::Create();
-  frame->insert(observation(kMapPoints, keyframe.stamp, with_intensity(keyframe.points)));
-  const mrpt_io::PointAttributes attributes{keyframe.points.time, keyframe.points.ring};
+  frame->insert(observation(kMapPoints, keyframe.stamp, plain(keyframe.points)));
+  const mrpt_io::PointAttributes attributes{keyframe.points.time, keyframe.points.ring,
+                                            keyframe.points.intensity};
   if (!attributes.empty()) frame->insert(mrpt_io::to_observation(attributes, keyframe.stamp));
   frame->insert(observation(kSurfacePoints, keyframe.stamp, plain(keyframe.features.surface)));
   frame->insert(observation(kPlanarPoints, keyframe.stamp, plain(keyframe.features.planar)));

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <tsl/robin_set.h>
 #include <utility>
 
 #include "traverse/geometry/angle.hpp"
 #include "traverse/geometry/so3.hpp"
-#include "traverse/geometry/voxel.hpp"
+#include "traverse/geometry/voxel_set.hpp"
 #include "traverse/parallel/workers.hpp"
 #include "traverse/sensors/rings.hpp"
 #include "traverse/sensors/sweep_timing.hpp"
@@ -18,27 +17,19 @@ namespace traverse::slam {
 
 namespace {
 
-constexpr double kLeastEigenvalue = 1e-4;  // of a match: below, a direction is not determined
-constexpr double kLeastResidual_m = 0.01;  // a perfect fit would mean perfect knowledge
-
-std::size_t matches_of(const lidar::RegistrationHealth& health) {
-  return health.line_matches + health.plane_matches;
-}
-
 double weakest_information(const lidar::RegistrationHealth& health) {
-  return health.observability.eigenvalues[0] * static_cast<double>(matches_of(health));
+  return health.observability.eigenvalues[0] * static_cast<double>(health.matches());
 }
 
 KeyframePoints thinned(const sensors::LidarScan& scan, const lidar::CorrectedScan& used,
                        const sensors::LidarProfile& profile, double cube_m) {
   KeyframePoints points;
-  tsl::robin_set<std::uint64_t, geometry::VoxelHash> occupied;
+  geometry::VoxelSet voxels(cube_m);
   const auto intensity_scale = static_cast<float>(1 / profile.intensity_full_scale);
   const sensors::PointClock clock(scan, profile);
   const std::vector<std::uint16_t> rings = sensors::rings_if_known(scan, profile);
   for (std::size_t i = 0; i < used.x.size(); ++i) {
-    const Eigen::Vector3d p(used.x[i], used.y[i], used.z[i]);
-    if (!occupied.insert(geometry::voxel_key(p, cube_m)).second) continue;
+    if (!voxels.insert({used.x[i], used.y[i], used.z[i]})) continue;
     points.x.push_back(used.x[i]);
     points.y.push_back(used.y[i]);
     points.z.push_back(used.z[i]);
@@ -129,7 +120,7 @@ geometry::Matrix6 KeyframeMaker::step_covariance(const geometry::Pose3& T_i_j) c
   geometry::Matrix6 covariance = geometry::Matrix6::Zero();
   covariance.diagonal().head<3>().setConstant(turn * turn);
   covariance.diagonal().tail<3>().setConstant(shift * shift);
-  if (weakest_) covariance += noise.inflation * registration_covariance(*weakest_);
+  if (weakest_) covariance += noise.inflation * weakest_->covariance();
   const double lost_turn = noise.unregistered_deg * geometry::kDegree * unregistered_;
   const double lost_shift = noise.unregistered_m * unregistered_;
   covariance.diagonal().head<3>().array() += lost_turn * lost_turn;
@@ -138,19 +129,6 @@ geometry::Matrix6 KeyframeMaker::step_covariance(const geometry::Pose3& T_i_j) c
   geometry::Matrix6 axes = geometry::Matrix6::Identity();
   axes.bottomRightCorner<3, 3>() = T_i_j.rotation;
   return axes * covariance * axes.transpose();
-}
-
-geometry::Matrix6 registration_covariance(const lidar::RegistrationHealth& health) {
-  const lidar::Observability& seen = health.observability;
-  const double residual_m = std::max(health.residual_rms_m, kLeastResidual_m);
-  const auto count = static_cast<double>(std::max<std::size_t>(matches_of(health), 1));
-  const geometry::Twist inverse = seen.eigenvalues.cwiseMax(kLeastEigenvalue).cwiseInverse();
-  geometry::Matrix6 covariance =
-      seen.directions * inverse.asDiagonal() * seen.directions.transpose();
-  covariance *= residual_m * residual_m / count;
-  covariance.topRows<3>() /= seen.rotation_scale_m;
-  covariance.leftCols<3>() /= seen.rotation_scale_m;
-  return covariance;
 }
 
 voxel_map::SweepSample deskewed(voxel_map::SweepSample sample, const geometry::Twist& velocity) {

@@ -9,24 +9,22 @@
 
 #include <nanoflann.hpp>
 
+#include "traverse/geometry/kd_tree_points.hpp"
+
 namespace traverse::slam {
 
 namespace {
 
-/// What nanoflann asks of a point set.
-struct PlaceSet {
+/// Places of any number of dimensions, one after the other.
+struct Places {
   std::size_t dimensions;
   std::vector<float> values;
 
-  std::size_t kdtree_get_point_count() const { return values.size() / dimensions; }
-  float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return values[i * dimensions + axis];
-  }
-  template <typename Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
+  std::size_t size() const { return values.size() / dimensions; }
+  float coordinate(std::size_t i, std::size_t axis) const { return values[i * dimensions + axis]; }
 };
+
+using PlaceSet = geometry::KdTreePoints<Places>;
 
 constexpr std::size_t kLeafSize = 10;
 constexpr std::size_t kMostPlaces = 100'000'000;
@@ -53,12 +51,12 @@ struct PlaceIndex::Forest {
       nanoflann::KDTreeSingleIndexDynamicAdaptor<nanoflann::L2_Simple_Adaptor<float, PlaceSet>,
                                                  PlaceSet, -1, std::uint32_t>;
 
-  PlaceSet places;
+  PlaceSet set;
   Tree tree;
 
   explicit Forest(std::size_t dimensions)
-      : places{dimensions, {}},
-        tree(static_cast<int>(dimensions), places,
+      : set{{dimensions, {}}},
+        tree(static_cast<int>(dimensions), set,
              nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize), kMostPlaces) {}
 };
 
@@ -70,7 +68,7 @@ PlaceIndex::~PlaceIndex() = default;
 
 // The trees point into their own places, so a copy grows its own.
 PlaceIndex::PlaceIndex(const PlaceIndex& other) : PlaceIndex(other.dimensions_) {
-  add(other.forest_->places.values);
+  add(other.forest_->set.points.values);
 }
 
 PlaceIndex& PlaceIndex::operator=(const PlaceIndex& other) {
@@ -82,11 +80,12 @@ void PlaceIndex::add(std::span<const float> places) {
   if (places.size() % dimensions_ != 0) throw other_dimensions();
   if (places.empty()) return;
   const auto first = static_cast<std::uint32_t>(size());
-  forest_->places.values.insert(forest_->places.values.end(), places.begin(), places.end());
+  std::vector<float>& values = forest_->set.points.values;
+  values.insert(values.end(), places.begin(), places.end());
   forest_->tree.addPoints(first, static_cast<std::uint32_t>(size() - 1));
 }
 
-std::size_t PlaceIndex::size() const { return forest_->places.kdtree_get_point_count(); }
+std::size_t PlaceIndex::size() const { return forest_->set.points.size(); }
 
 std::vector<PlaceIndex::Found> PlaceIndex::nearest(std::span<const float> place,
                                                    std::size_t most) const {

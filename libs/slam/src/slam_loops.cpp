@@ -142,7 +142,7 @@ Loop Slam::verify(const Candidate& candidate, LoopSource source, const Keyframe&
   loop.residual_rms_m = found.health.residual_rms_m;
   loop.weakest_eigenvalue = found.health.observability.eigenvalues[0];
   const LoopChecks& checks = options_.loops;
-  geometry::Matrix6 covariance = checks.inflation * registration_covariance(found.health);
+  geometry::Matrix6 covariance = checks.inflation * found.health.covariance();
   const double turn = checks.min_sigma_deg * geometry::kDegree;
   covariance.diagonal().head<3>().array() += turn * turn;
   covariance.diagonal().tail<3>().array() += checks.min_sigma_m * checks.min_sigma_m;

@@ -48,7 +48,7 @@ struct Fields {
     doubles(k.step_covariance);
     value(k.health.line_matches), value(k.health.plane_matches), value(k.health.residual_rms_m);
     value(k.health.inlier_share), value(k.health.steps), value(k.health.iterations);
-    value(k.health.registered);
+    value(k.health.registered), value(k.health.converged), value(k.health.reason);
     doubles(k.health.observability.eigenvalues), doubles(k.health.observability.directions);
     value(k.health.observability.rotation_scale_m), value(k.health.observability.degenerate);
   }

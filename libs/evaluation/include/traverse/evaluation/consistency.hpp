@@ -91,7 +91,6 @@ class ConsistencyScorer {
   std::vector<std::uint32_t> first_number_of_scan_;
   /// Of the cells: where the first scan was.
   Eigen::Vector3d p_map_origin_ = Eigen::Vector3d::Zero();
-  std::vector<bool> occupied_;  ///< one a voxel of the sensor frame, all false between scans
 };
 
 }  // namespace traverse::evaluation

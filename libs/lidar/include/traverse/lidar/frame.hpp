@@ -7,7 +7,7 @@
 #include "traverse/geometry/pose3.hpp"
 #include "traverse/geometry/stamp.hpp"
 #include "traverse/lidar/feature_class.hpp"
-#include "traverse/lidar/observability.hpp"
+#include "traverse/lidar/registration_health.hpp"
 #include "traverse/lidar/scan_lines.hpp"
 
 namespace traverse::lidar {
@@ -26,18 +26,6 @@ struct StageTimes {
   double total() const {
     return organise + features + deskew + index + associate + solve + insert + start;
   }
-};
-
-/// How the registration of a frame went.
-struct RegistrationHealth {
-  std::size_t line_matches = 0;
-  std::size_t plane_matches = 0;
-  double residual_rms_m = 0;
-  double inlier_share = 0;
-  int steps = 0;       ///< of association and solve
-  int iterations = 0;  ///< of the solver, all steps together
-  Observability observability;
-  bool registered = false;  ///< false: the pose is the prediction (or the first frame's identity)
 };
 
 /// One scan's result.

@@ -6,6 +6,7 @@
 #include "traverse/loam/association.hpp"
 #include "traverse/optimization/derivative.hpp"
 #include "traverse/optimization/perturbation.hpp"
+#include "traverse/optimization/termination.hpp"
 
 namespace traverse::loam {
 
@@ -39,6 +40,8 @@ struct SolveResult {
   geometry::Pose3 T_map_lidar;
   lidar::Observability observability;  ///< at the solution
   int iterations = 0;
+  /// Converged: Ceres' tolerances were met for these matches.
+  optimization::Termination reason = optimization::Termination::kNotRun;
   double residual_rms_m = 0;  ///< of all matches at the solution
   double inlier_share = 0;    ///< of the matches, those with |residual| <= huber_m
   bool usable = false;        ///< false: too few matches or the solver failed; pose is the guess

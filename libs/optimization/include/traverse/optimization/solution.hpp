@@ -6,6 +6,8 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
+#include "traverse/optimization/termination.hpp"
+
 namespace traverse::optimization {
 
 /// What a solution by Ceres came to.
@@ -17,10 +19,11 @@ namespace traverse::optimization {
 struct Solution {
   bool is_usable = false;  ///< if not, the parameters are as they were
   bool converged = false;
+  Termination reason = Termination::kNotRun;
   int iterations = 0;  ///< steps that were tried
   /// Of the trust region in the end; nothing without an iteration.
   std::optional<double> trust_region_radius;
-  std::string message;  ///< Ceres' last word: why it ended, or why it failed
+  std::string message;  ///< Ceres' last word: the reason in detail
 };
 
 /// Minimises the problem and reads its summary.

@@ -11,6 +11,7 @@
 
 #include "traverse/geometry/pose3.hpp"
 #include "traverse/geometry/se3.hpp"
+#include "traverse/optimization/termination.hpp"
 #include "traverse/pose_graph/graph_options.hpp"
 
 namespace traverse::pose_graph {
@@ -71,7 +72,8 @@ struct Level {
 struct Result {
   bool is_usable = false;  ///< if not, nothing was moved, and the message says why
   bool converged = false;
-  std::string message;      ///< the solver's last word
+  optimization::Termination reason = optimization::Termination::kNotRun;  ///< of the last stage
+  std::string message;      ///< the solver's last word: the reason in detail
   int stages = 0;           ///< of the graduation, the last one included
   int iterations = 0;       ///< of all stages
   double initial_cost = 0;  ///< half the robust sum of squares with the final bound

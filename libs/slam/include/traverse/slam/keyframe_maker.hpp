@@ -57,10 +57,6 @@ class KeyframeMaker {
   int unregistered_ = 0;
 };
 
-/// Covariance of the body twist [rotation, translation] of a registration, from the information of
-/// its matches and their residuals: rms^2 / n (S V diag(lambda) V' S)^-1, S the rotation scale.
-geometry::Matrix6 registration_covariance(const lidar::RegistrationHealth& health);
-
 /// The features of a scan moved to where they stood at its stamp.
 voxel_map::SweepSample deskewed(voxel_map::SweepSample sample, const geometry::Twist& velocity);
 
