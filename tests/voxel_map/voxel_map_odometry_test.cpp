@@ -1,9 +1,7 @@
+// What all odometries promise is tested in tests/lidar/odometry_contract_test.cpp.
 #include "traverse/voxel_map/voxel_map_odometry.hpp"
 
-#include <algorithm>
-#include <cstring>
-#include <functional>
-#include <limits>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -11,7 +9,6 @@
 #include "traverse/voxel_map/row_factor_kinds.hpp"
 
 #include "lidar/odometry_trial.hpp"
-#include "lidar/shown_matches.hpp"
 #include "lidar/simulated_drive.hpp"
 
 namespace traverse::voxel_map {
@@ -43,28 +40,6 @@ class VoxelStreet : public ::testing::Test {
   static inline SimulatedDrive* street_ = nullptr;
 };
 
-TEST_F(VoxelStreet, FollowsADriveThatStartsAtSpeed) {
-  const auto frames = run(street(), quick_start());
-  ASSERT_EQ(frames.size(), street().scans.size());
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    EXPECT_EQ(frames[i].index, i);
-    EXPECT_EQ(frames[i].stamp, street().scans[i].stamp);
-    EXPECT_EQ(frames[i].health.registered, i > 0);
-    EXPECT_EQ(frames[i].health.observability.degenerate, 0);
-    EXPECT_EQ(frames[i].points, street().scans[i].size());
-  }
-  EXPECT_LT(worst_position_error(frames, street()), 0.06);  // over 18 m, range noise 2 cm
-}
-
-TEST_F(VoxelStreet, ShowsItsMatchesAndItsMap) {
-  VoxelMapOdometry odometry(quick_start(), street().scanner.profile, false);
-  EXPECT_TRUE(odometry.matches().empty());
-  EXPECT_TRUE(odometry.local_map().empty());
-  std::vector<lidar::Frame> frames;
-  for (const auto& scan : street().scans) frames = odometry.process(scan);
-  testing::expect_consistent_view(odometry, frames.back(), 1.5);
-}
-
 TEST_F(VoxelStreet, ItsFactorsAreKinds) {
   const VoxelMapOdometry odometry({}, street().scanner.profile, false);
   const auto kinds = optimization::selected(row_factor_kinds(), odometry.factors());
@@ -87,69 +62,6 @@ TEST_F(VoxelStreet, StartingFromRestLagsBehind) {
   EXPECT_GT(worst_position_error(run(street(), options), street()), 0.3);
 }
 
-TEST_F(VoxelStreet, SameBytesOnRepeatAndForAnyNumberOfThreads) {
-  const auto one = run(street(), quick_start());
-  for (const int threads : {1, 2, 4}) {
-    VoxelMapOdometryOptions options = quick_start();
-    options.threads = threads;
-    const auto many = run(street(), options);
-    ASSERT_EQ(one.size(), many.size());
-    for (std::size_t i = 0; i < one.size(); ++i) {
-      const Eigen::Matrix4d a = one[i].T_map_lidar.matrix();
-      const Eigen::Matrix4d b = many[i].T_map_lidar.matrix();
-      EXPECT_EQ(std::memcmp(a.data(), b.data(), sizeof(double) * 16), 0)
-          << "frame " << i << ", " << threads << " threads";
-      EXPECT_EQ(one[i].health.residual_rms_m, many[i].health.residual_rms_m);
-    }
-  }
-}
-
-TEST_F(VoxelStreet, ADroppedScanDoesNotBreakThePrediction) {
-  SimulatedDrive drive = street();
-  drive.scans.erase(drive.scans.begin() + 8, drive.scans.begin() + 11);  // a gap of 0.4 s
-  drive.truth.erase(drive.truth.begin() + 8, drive.truth.begin() + 11);
-  EXPECT_LT(worst_position_error(run(drive, quick_start()), drive), 0.1);
-}
-
-TEST_F(VoxelStreet, AScanOfNoOrThreePointsKeepsThePredictionAndSaysSo) {
-  for (const std::size_t points : {0U, 3U}) {
-    SimulatedDrive drive = street();
-    sensors::LidarScan& poor = drive.scans[10];
-    for (auto* values : {&poor.x, &poor.y, &poor.z, &poor.intensity, &poor.time}) {
-      values->resize(points);
-    }
-    poor.ring.resize(points);
-    const auto frames = run(drive, quick_start());
-    EXPECT_FALSE(frames[10].health.registered);
-    EXPECT_EQ(frames[10].health.observability.degenerate, 6);
-    EXPECT_TRUE(frames[11].health.registered);
-    EXPECT_LT(worst_position_error(frames, drive), 0.15);
-  }
-}
-
-TEST_F(VoxelStreet, AFirstScanWithoutPointsIsNoMap) {
-  SimulatedDrive drive = street();
-  const geometry::Stamp stamp = drive.scans[0].stamp;
-  drive.scans[0] = {};
-  drive.scans[0].stamp = stamp;
-  const auto frames = run(drive, quick_start());
-  ASSERT_EQ(frames.size(), drive.scans.size());
-  EXPECT_FALSE(frames[1].health.registered);
-  EXPECT_TRUE(frames[3].health.registered);
-}
-
-TEST_F(VoxelStreet, NotANumberPointsAreCountedNotUsed) {
-  SimulatedDrive drive = street();
-  for (auto& scan : drive.scans) {
-    for (std::size_t i = 0; i < scan.size(); i += 50) {
-      scan.x[i] = std::numeric_limits<float>::quiet_NaN();
-    }
-  }
-  const auto frames = run(drive, quick_start());
-  EXPECT_GT(frames[5].dropped.not_finite, 500U);
-  EXPECT_LT(worst_position_error(frames, drive), 0.06);
-}
-
 TEST_F(VoxelStreet, RingsBeyondTheProfileAreCountedNotUsed) {
   SimulatedDrive drive = street();
   drive.scanner.profile.rings = 48;
@@ -162,22 +74,6 @@ TEST_F(VoxelStreet, EqualStampsCountAsOneSweep) {
   SimulatedDrive drive = street();
   for (auto& scan : drive.scans) scan.stamp = drive.scans.front().stamp;
   EXPECT_LT(worst_position_error(run(drive, quick_start()), drive), 0.06);
-}
-
-TEST_F(VoxelStreet, ACloudWithoutRingsIsFollowedToo) {
-  SimulatedDrive drive = street();
-  for (auto& scan : drive.scans) scan.ring.clear();
-  EXPECT_LT(worst_position_error(run(drive, quick_start()), drive), 0.1);
-}
-
-TEST_F(VoxelStreet, ARecordingShorterThanTheStartIsNotLost) {
-  for (const std::size_t count : {1U, 2U, 3U}) {
-    SimulatedDrive drive = street();
-    drive.scans.resize(count);
-    const auto frames = run(drive, quick_start());
-    ASSERT_EQ(frames.size(), count);
-    EXPECT_LT(worst_position_error(frames, drive), 0.1);
-  }
 }
 
 TEST(VoxelOdometry, SixteenRingsAreEnough) {
@@ -195,19 +91,6 @@ TEST(VoxelOdometry, SixteenRingsAreEnough) {
     drive.truth.push_back(drive.drive.pose(0).inverse() * drive.drive.pose(0.1 * i));
   }
   EXPECT_LT(worst_position_error(run(drive, quick_start()), drive), 0.1);  // over 29 m
-}
-
-TEST(VoxelOdometry, WithoutDeskewASwervingDriveIsWorse) {
-  simulation::Drive swerving;
-  swerving.speed_mps = 12;
-  swerving.amplitude_m = 3;
-  swerving.wavelength_m = 40;  // up to 0.9 rad/s
-  const SimulatedDrive drive(simulation::street(40, 1), 16, swerving);
-  VoxelMapOdometryOptions options = quick_start();
-  const double with_deskew = worst_position_error(run(drive, options), drive);
-  options.deskew = false;
-  EXPECT_GT(worst_position_error(run(drive, options), drive), 2 * with_deskew);
-  EXPECT_LT(with_deskew, 0.1);
 }
 
 TEST(VoxelOdometry, ATunnelIsReportedDegenerateAndTheEstimateDoesNotJump) {
@@ -241,15 +124,6 @@ TEST(VoxelOdometry, MemoryStaysFlatOnALoop) {
     if (round == 0) after_one = odometry.map().bytes();
   }
   EXPECT_LT(odometry.map().bytes(), 1.5 * static_cast<double>(after_one));
-}
-
-TEST(VoxelOdometry, SaysWhyItDoesNotDeskew) {
-  sensors::LidarProfile profile;
-  EXPECT_EQ(VoxelMapOdometry({}, profile, false).deskew_note(), "on");
-  EXPECT_EQ(VoxelMapOdometry({}, profile, true).deskew_note(),
-            "off: the recording is motion-compensated");
-  profile.time_source = sensors::TimeSource::kNone;
-  EXPECT_EQ(VoxelMapOdometry({}, profile, false).deskew_note(), "off: point times are unknown");
 }
 
 }  // namespace

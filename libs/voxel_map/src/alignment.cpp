@@ -13,6 +13,7 @@
 #include "traverse/lidar/stopwatch.hpp"
 #include "traverse/optimization/rotation_manifold.hpp"
 #include "traverse/optimization/solution.hpp"
+#include "traverse/optimization/termination.hpp"
 #include "traverse/parallel/workers.hpp"
 #include "traverse/statistics/quantile.hpp"
 
@@ -20,6 +21,8 @@
 #include "facing_information.hpp"
 
 namespace traverse::voxel_map {
+
+using optimization::Termination;
 
 namespace {
 
@@ -131,12 +134,16 @@ class Registration {
  private:
   /// Rounds until a step is small. \returns whether the scan was registered
   bool approach(const geometry::Pose3& guess, int rounds, double gate_factor) {
+    result_.health.end(Termination::kIterationLimit);
     for (int round = 0; round < rounds; ++round) {
       const double halved = gate_factor * options_.gate_m * std::pow(0.5, std::max(0, round - 1));
       const auto step = step_once(guess, std::max(halved, options_.narrow_gate_m));
       if (!step) return false;
       result_.T_map_lidar = result_.T_map_lidar * geometry::exp_se3(*step);
-      if (round >= 1 && is_small(*step)) break;
+      if (round >= 1 && is_small(*step)) {
+        result_.health.end(Termination::kConverged);
+        break;
+      }
     }
     return true;
   }
@@ -144,13 +151,17 @@ class Registration {
   /// The directions that are judged keep their prediction; the others adapt to it.
   void polish(const geometry::Pose3& guess) {
     const lidar::Observability judged = result_.health.observability;
+    result_.health.end(Termination::kIterationLimit);
     for (int round = 0; round < kPolishingRounds; ++round) {
       const geometry::Pose3 before = result_.T_map_lidar;
       const auto step = step_once(guess, options_.narrow_gate_m);
       if (!step) return;
       const geometry::Twist kept = judged.well_observed(*step);
       result_.T_map_lidar = before * geometry::exp_se3(kept);
-      if (is_small(kept)) break;
+      if (is_small(kept)) {
+        result_.health.end(Termination::kConverged);
+        break;
+      }
     }
     result_.health.observability = judged;
   }
@@ -171,7 +182,9 @@ class Registration {
     health.line_matches = matches_.line_1.size();
     health.plane_matches = matches_.planes.size();
     result_.standing_planes = matches_.standing_planes;
-    if (matches_.size() < static_cast<std::size_t>(options_.min_matches)) return give_up(guess);
+    if (matches_.size() < static_cast<std::size_t>(options_.min_matches)) {
+      return give_up(guess, Termination::kTooFewMatches);
+    }
     CondensedCost cost(matches_, motion_, options_.objective, workers_);
     normal_ = cost.at(result_.T_map_lidar);
     T_map_lidar_of_normal_ = result_.T_map_lidar;
@@ -181,12 +194,13 @@ class Registration {
     const Solved solved = solve(cost, result_.T_map_lidar, options_.iterations);
     health.iterations += solved.iterations;
     watch.lap(ms_.solve);
-    if (!solved.usable) return give_up(guess);
+    if (!solved.usable) return give_up(guess, Termination::kNotSolvable);
     health.registered = true;
     return geometry::log_se3(result_.T_map_lidar.inverse() * solved.T_map_lidar);
   }
 
-  std::optional<geometry::Twist> give_up(const geometry::Pose3& guess) {
+  std::optional<geometry::Twist> give_up(const geometry::Pose3& guess, Termination why) {
+    result_.health.end(why);
     result_.health.registered = false;
     result_.health.observability.degenerate = 6;
     result_.T_map_lidar = guess;

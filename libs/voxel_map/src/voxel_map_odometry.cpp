@@ -107,9 +107,59 @@ std::vector<lidar::Frame> VoxelMapOdometry::advance_all(const std::vector<SweepS
                                       options_.alignment, options_.start, *workers_);
     watch.lap(start_ms);
   }
+  const bool is_start = frames_ == 0;
   std::vector<lidar::Frame> frames;
   for (const SweepSample& scan : scans) frames.push_back(advance(scan, std::exchange(start_ms, 0)));
+  if (is_start && scans.size() >= 3) {
+    lidar::Stopwatch settling;
+    settle(scans, frames);
+    settling.lap(frames.front().ms.start);
+  }
   return frames;
+}
+
+void VoxelMapOdometry::settle(const std::vector<SweepSample>& scans,
+                              std::vector<lidar::Frame>& frames) {
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    const lidar::RegistrationHealth& health = frames[i].health;
+    if (!health.registered || health.observability.degenerate > 0) return;
+  }
+  const bool deskew = deskew_note_ == "on";
+  const auto motion = [&](std::size_t i) {
+    return deskew ? frames[i].velocity : geometry::Twist::Zero();
+  };
+  const auto middle = [&](std::size_t i) {
+    return frames[i].T_map_lidar * geometry::exp_se3(scans[i].middle_s * frames[i].velocity);
+  };
+  frames[0].velocity = frames[1].velocity;
+  VoxelMap others(options_.map);
+  for (std::size_t i = 1; i < scans.size(); ++i) {
+    others.insert(scans[i], middle(i), motion(i), *workers_);
+  }
+  const double dt = interval(scans[0].stamp, scans[0].middle_s, scans[1]);
+  const MotionModel before{middle(0) * geometry::exp_se3(-dt * frames[0].velocity), dt, deskew};
+  lidar::StageTimes ignored;
+  const Alignment first = align(scans[0], others, before, middle(0), options_.alignment,
+                                kFirstFrames, *workers_, matches_, ignored);
+  if (!first.health.registered || first.health.observability.degenerate > 0) return;
+
+  const geometry::Pose3 T_old_map =
+      first.T_map_lidar * geometry::exp_se3(-scans[0].middle_s * frames[0].velocity);
+  const geometry::Pose3 T_map_old = T_old_map.inverse();
+  frames[0].T_map_lidar = T_old_map;  // and the origin, once moved as the others are
+  map_ = VoxelMap(options_.map);
+  const std::size_t last = scans.size() - 1;
+  for (std::size_t i = 0; i < last; ++i) {
+    frames[i].T_map_lidar = (T_map_old * frames[i].T_map_lidar).orthonormalised();
+    map_.insert(scans[i], middle(i), motion(i), *workers_);
+    frames[i].map_points = map_.size();
+  }
+  frames_ = last;
+  T_map_last_ = middle(last - 1);
+  last_stamp_ = frames[last - 1].stamp;
+  last_middle_s_ = scans[last - 1].middle_s;
+  velocity_ = frames[last - 1].velocity;
+  frames[last] = advance(scans[last], 0);
 }
 
 double VoxelMapOdometry::interval(geometry::Stamp earlier, double earlier_middle_s,

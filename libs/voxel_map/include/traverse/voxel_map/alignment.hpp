@@ -25,6 +25,8 @@ void bind(config::Binder& binder, AlignmentOptions& options);
 /// Outcome of the registration of one scan.
 struct Alignment {
   geometry::Pose3 T_map_lidar;
+  /// With the reason why it ended (converged: the last round moved the pose by less than
+  /// converged_m and converged_deg) and, when asked, the covariance of the pose.
   lidar::RegistrationHealth health;
   std::size_t standing_planes = 0;  ///< matches with planes that are not nearly horizontal
 };

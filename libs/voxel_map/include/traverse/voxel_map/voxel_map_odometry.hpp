@@ -73,6 +73,10 @@ class VoxelMapOdometry final : public lidar::Odometry {
  private:
   std::vector<lidar::Frame> advance_all(const std::vector<SweepSample>& scans);
   lidar::Frame advance(const SweepSample& sample, double start_ms);
+  /// Registers the first scan, too, with a map: of those that were held back behind it. All poses
+  /// are told from it, and its own planes, by which the others were registered, are those of a
+  /// single scan. The map is built once more, with the first scan at the origin of it.
+  void settle(const std::vector<SweepSample>& scans, std::vector<lidar::Frame>& frames);
   /// The sample of the scan, with times from the middle of its sweep where it is deskewed.
   SweepSample sampled(const sensors::LidarScan& scan);
   /// Seconds between the moments that are estimated.
