@@ -1,6 +1,8 @@
 #include "check_jacobians.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -11,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "traverse/optimization/jacobian_audit.hpp"
+#include "traverse/optimization/shown_jacobians.hpp"
 #include "traverse/pipeline/factor_kinds.hpp"
 
 #include "commands.hpp"
@@ -23,6 +26,7 @@ namespace {
 
 constexpr const char* kFooter = R"(Example:
   traverse check-jacobians --states 1000 --seed 7 --json jacobians.json
+  traverse check-jacobians --factor inertial --show
 
 Each factor's analytic Jacobian is compared at random states, away from zero residual, with the
 automatic one (dual numbers) and with central differences of the factor's own value, for a rotation
@@ -30,10 +34,17 @@ moved on the right, R Exp(d), and on the left, Exp(d) R. Of all states the large
 entry is shown, and the largest relative to the block's largest entry, which decides. Exit status 1 if
 a block fails. docs/mathematics.md derives what is checked.)";
 
+/// What the exercises call the factors of their chapter.
+const std::map<std::string, std::vector<std::string>> kGroups{
+    {"inertial", {"inertial rotation", "inertial velocity", "inertial position"}},
+    {"lidar", {"line vector", "line scalar", "plane absolute", "plane signed"}}};
+
 struct Arguments {
   std::vector<optimization::FactorKind> kinds;
   optimization::AuditOptions options;
   std::optional<std::filesystem::path> json;
+  std::string factor;
+  bool is_shown = false;
 };
 
 std::string difference_text(double value) {
@@ -85,8 +96,81 @@ std::string failures(const optimization::JacobianAudit& audit) {
   return text;
 }
 
+/// Those that --factor asks for. \throws std::invalid_argument if it is the name of none.
+std::vector<optimization::FactorKind> chosen(const Arguments& arguments) {
+  if (arguments.factor.empty()) return arguments.kinds;
+  const auto group = kGroups.find(arguments.factor);
+  const std::vector<std::string> names =
+      group == kGroups.end() ? std::vector{arguments.factor} : group->second;
+  std::vector<optimization::FactorKind> kinds;
+  for (const auto& kind : arguments.kinds) {
+    if (std::find(names.begin(), names.end(), kind.name) != names.end()) kinds.push_back(kind);
+  }
+  if (kinds.empty()) {
+    throw std::invalid_argument(
+        fmt::format("--factor: no factor is called '{}': inertial, lidar or one of the names that "
+                    "`traverse check-jacobians` lists",
+                    arguments.factor));
+  }
+  return kinds;
+}
+
+/// A block's derivative as Forster et al. and the book write it, "dv/dbg1": of the residual of
+/// rotation, velocity or position, in a part of the state before or after; otherwise its own name.
+std::string book_name(const std::string& factor, const std::string& block) {
+  static const std::map<std::string, std::string> kRows{
+      {"inertial rotation", "dR"}, {"inertial velocity", "dv"}, {"inertial position", "dp"}};
+  static const std::map<std::string, std::string> kParts{{"rotation", "R"},
+                                                         {"position", "p"},
+                                                         {"velocity", "v"},
+                                                         {"gyro bias", "bg"},
+                                                         {"accelerometer bias", "ba"}};
+  const auto row = kRows.find(factor);
+  if (row == kRows.end()) return block;
+  const auto part = kParts.find(block.substr(0, block.size() - 2));  // without " i" or " j"
+  return fmt::format("{}/d{}{}", row->second, part->second, block.back() == 'i' ? 1 : 2);
+}
+
+/// The entries of a matrix beside those of another and their difference, a row a line.
+std::string blocks_text(const optimization::ShownBlock& block) {
+  const auto entries = [](const Eigen::MatrixXd& matrix, Eigen::Index row, const char* form) {
+    std::string text;
+    for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
+      text += fmt::format(fmt::runtime(form), matrix(row, column));
+    }
+    return text;
+  };
+  std::string text;
+  for (Eigen::Index row = 0; row < block.analytic.rows(); ++row) {
+    text += fmt::format("  {}  |{}  |{}  |{}\n", entries(block.analytic, row, "{:12.6f}"),
+                        entries(block.automatic, row, "{:12.6f}"),
+                        entries(block.numeric, row, "{:12.6f}"),
+                        entries(block.analytic - block.numeric, row, "{:10.1e}"));
+  }
+  return text;
+}
+
+void show_jacobians(const Arguments& arguments) {
+  for (const auto& kind : chosen(arguments)) {
+    for (const auto perturbation : kind.perturbations) {
+      const auto shown = optimization::show_jacobians(kind, perturbation, arguments.options);
+      fmt::print("{}, {} perturbation: {}\n\n", shown.factor, name_of(perturbation), shown.formula);
+      for (const auto& block : shown.blocks) {
+        const Eigen::MatrixXd difference = block.analytic - block.numeric;
+        fmt::print("{}: analytic | automatic | numeric | analytic - numeric (at most {:.1e})\n{}\n",
+                   book_name(shown.factor, block.block), difference.cwiseAbs().maxCoeff(),
+                   blocks_text(block));
+      }
+    }
+  }
+}
+
 void check_jacobians(const Arguments& arguments) {
-  const auto audit = optimization::audit_jacobians(arguments.kinds, arguments.options);
+  if (arguments.is_shown) {
+    show_jacobians(arguments);
+    return;
+  }
+  const auto audit = optimization::audit_jacobians(chosen(arguments), arguments.options);
   fmt::print(
       "Analytic Jacobians against automatic ones and central differences, {} random states "
       "(seed {})\n\n{}\n",
@@ -114,6 +198,11 @@ void add_check_jacobians(CLI::App& app, std::vector<optimization::FactorKind> ki
       ->capture_default_str();
   command->add_option("--seed", arguments->options.seed, "of the random states")
       ->capture_default_str();
+  command->add_option("--factor", arguments->factor,
+                      "these alone: inertial, lidar, or the name of one");
+  command->add_flag(
+      "--show", arguments->is_shown,
+      "print the Jacobians at the first state, analytic beside automatic and numeric");
   command->add_option("--json", arguments->json, "write every figure to this file")
       ->type_name("FILE");
   command->footer(kFooter);

@@ -13,6 +13,7 @@ void add_bench_factors(CLI::App& app);
 void add_check_jacobians(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_convert(CLI::App& app);
+void add_doctor(CLI::App& app);
 void add_evaluate(CLI::App& app);
 void add_info(CLI::App& app);
 void add_localize(CLI::App& app);

@@ -1,10 +1,13 @@
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "traverse/dataset/open_recording.hpp"
+#include "traverse/dataset/recording_survey.hpp"
 #include "traverse/plausibility/stream_checks.hpp"
 
 #include "commands.hpp"
@@ -23,6 +26,7 @@ namespace {
 struct InfoOptions {
   RecordingOptions recording;
   bool formats = false;
+  bool all = false;
   std::string json;  ///< path; empty if not given
 };
 
@@ -47,12 +51,34 @@ void show_run(const InfoOptions& options) {
   fmt::print("{}", run_text(folder));
 }
 
+/// What a recording tells of itself, and how its first seconds are: no more of it is read.
+void show_listed(const InfoOptions& options, dataset::Source& source) {
+  constexpr std::size_t kMostScans = 5;
+  constexpr std::size_t kMostRecords = 2000;
+  std::size_t scans = 0;
+  std::size_t records = 0;
+  dataset::RecordingSurvey survey = dataset::survey(
+      source, [](const auto&) {},
+      [&](const sensors::Measurement& measurement) {
+        scans += std::holds_alternative<std::shared_ptr<const sensors::LidarScan>>(measurement);
+        return scans < kMostScans && ++records < kMostRecords;
+      });
+  if (!options.json.empty()) write_json_output(options.json, recording_json(source, survey, {}));
+  fmt::print("{}", listed_text(source, survey));
+}
+
 void run_info(const InfoOptions& options) {
   if (is_run_folder(options.recording.recording)) {
     show_run(options);
     return;
   }
-  const auto source = options.recording.open();
+  dataset::OpenOptions open_options = options.recording.open_options();
+  open_options.wants_measurements = false;
+  const auto source = dataset::open_recording(options.recording.recording, open_options);
+  if (source->info().is_listed && !options.all) {
+    show_listed(options, *source);
+    return;
+  }
   RecordingProgress progress("reading", *source);
   plausibility::StreamChecks checks(source->info());
   OdometryProbe probe(*source, checks);
@@ -83,6 +109,8 @@ void add_info(CLI::App& app) {
       ->add_flag("--formats", options->formats,
                  "list the kinds of recording that are read, and how they are recognised")
       ->excludes(recording);
+  command->add_flag("--all", options->all,
+                    "read all of a bag too, where else its index and first scans are enough");
   command->add_option("--json", options->json, "write all of it to this file too")
       ->option_text("FILE");
   command->footer(kExamples);

@@ -11,6 +11,7 @@ namespace {
 
 constexpr const char* kExamples = R"(Examples:
   traverse info DRIVE                              what is in a recording
+  traverse doctor DRIVE                            what is wrong with it, and what to do next
   traverse run DRIVE -o RUN                        trajectory, map, pictures and RUN/report.html
   traverse evaluate RUN/trajectory.tum --reference RUN/reference.tum --rpe 10f
   traverse compare RUN OTHER_RUN                   what is better, and whether that is sure
@@ -35,6 +36,7 @@ int main(int argc, char** argv) {
   traverse::app::add_report(app);
   traverse::app::add_compare(app);
   traverse::app::add_info(app);
+  traverse::app::add_doctor(app);
   traverse::app::add_convert(app);
   traverse::app::add_map(app);
   traverse::app::add_simulate(app);

@@ -77,6 +77,17 @@ std::string recording_json(const dataset::Source& source, const RecordingSurvey&
                     {"duration_s", survey.duration_s()}};
   json["sensors"] = ordered_json::array();
   for (const StreamSurvey& stream : survey.streams) json["sensors"].push_back(to_json(stream));
+  if (!info.topics.empty()) {
+    json["topics"] = ordered_json::array();
+    for (const dataset::TopicInfo& topic : info.topics) {
+      json["topics"].push_back({{"topic", topic.topic},
+                                {"type", topic.type},
+                                {"messages", topic.count},
+                                {"rate_hz", topic.rate_hz},
+                                {"used_as", topic.use},
+                                {"reason", topic.why}});
+    }
+  }
   json["facts"] = ordered_json::array();
   for (const dataset::Fact& fact : info.facts) {
     json["facts"].push_back({{"name", fact.name}, {"value", fact.value}, {"reason", fact.reason}});

@@ -50,6 +50,19 @@ std::string sensors_text(const RecordingSurvey& survey) {
   return "Sensors\n" + table.text(kIndent);
 }
 
+std::string topics_text(const dataset::RecordingInfo& info) {
+  if (info.topics.empty()) return {};
+  Table table(
+      {{}, {}, {Table::Align::kRight}, {Table::Align::kRight}, {}, {Table::Align::kLeft, 44}});
+  table.add_row({"topic", "type", "messages", "rate", "used as", "because"});
+  for (const dataset::TopicInfo& topic : info.topics) {
+    table.add_row({topic.topic, topic.type, fmt::format("{}", topic.count),
+                   topic.rate_hz > 0 ? fmt::format("{:.4g} Hz", topic.rate_hz) : "-",
+                   topic.use.empty() ? "-" : topic.use, topic.why});
+  }
+  return "\nTopics\n" + table.text(kIndent);
+}
+
 std::string gaps_text(const RecordingSurvey& survey) {
   std::string text;
   for (const StreamSurvey& stream : survey.streams) {
@@ -167,12 +180,29 @@ std::string recording_text(const Source& source, const RecordingSurvey& survey,
   const dataset::RecordingInfo& info = source.info();
   std::string text = fmt::format("{}  ({}, {})\n{} records in {:.3f} s\n\n", info.name, info.format,
                                  info.path.string(), survey.measurements(), survey.duration_s());
-  text += sensors_text(survey) + gaps_text(survey);
+  text += sensors_text(survey) + topics_text(info) + gaps_text(survey);
   for (const StreamSurvey& stream : survey.streams) {
     if (stream.lidar) text += lidar_text(stream.sensor, *stream.lidar);
   }
   return text + facts_text(source) + unused_text(source) + reference_text(survey) +
          skipped_text(source.skipped()) + findings_text(findings);
+}
+
+std::string listed_text(const Source& source, const RecordingSurvey& survey) {
+  const dataset::RecordingInfo& info = source.info();
+  std::string text =
+      fmt::format("{}  ({}, {})\n", info.name, info.format, info.path.string()) + topics_text(info);
+  std::size_t scans = 0;
+  for (const StreamSurvey& stream : survey.streams) {
+    if (!stream.lidar) continue;
+    text += lidar_text(stream.sensor, *stream.lidar);
+    scans += stream.count;
+  }
+  text += facts_text(source) + unused_text(source) + skipped_text(source.skipped());
+  return text + fmt::format(
+                    "\nOf the first {} records ({} scans): `traverse info --all` reads all, "
+                    "counts gaps and looks for contradictions.\n",
+                    survey.measurements(), scans);
 }
 
 }  // namespace traverse::app

@@ -16,4 +16,8 @@ std::string recording_text(const dataset::Source& source, const dataset::Recordi
 std::string recording_json(const dataset::Source& source, const dataset::RecordingSurvey& survey,
                            const std::vector<plausibility::Finding>& findings);
 
+/// The same of a recording that tells by itself what it holds, of which `survey` has read the first
+/// scans.
+std::string listed_text(const dataset::Source& source, const dataset::RecordingSurvey& survey);
+
 }  // namespace traverse::app

@@ -49,6 +49,7 @@ void for_each_value(const lidar::Frame& frame, const Add& add) {
   add("inlier_share", health.inlier_share);
   add("registration_steps", health.steps);
   add("solver_iterations", health.iterations);
+  add("converged", health.converged ? 1 : 0);
   add("degenerate_directions", health.observability.degenerate);
   add("rotation_scale_m", health.observability.rotation_scale_m);
   static constexpr std::array<std::string_view, 6> kAxes{"rx", "ry", "rz", "tx", "ty", "tz"};

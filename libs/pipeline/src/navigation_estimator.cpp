@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "traverse/inertial/factor_kinds.hpp"
+
 namespace traverse::pipeline {
 
 namespace {
@@ -111,6 +113,7 @@ void for_each_value(const NavFrame& frame, const Add& add) {
   add("outage_error_m", frame.outage_error_m);
   add("outage_distance_m", frame.outage_distance_m);
   add("solver_iterations", frame.iterations);
+  add("converged", frame.converged ? 1 : 0);
   add("states", frame.states);
 }
 
@@ -229,6 +232,9 @@ std::vector<Decision> NavigationEstimator::decisions() const {
                                    origin.latitude_deg, origin.longitude_deg, origin.altitude_m)});
     decisions.push_back({"gravity", fmt::format("{:.5f} m/s^2", plane->gravity())});
   }
+  for (const inertial::Fact& fact : navigation_.facts()) {
+    decisions.push_back({fact.name, fact.value});
+  }
   for (const auto& [what, count] : navigation_.events()) {
     decisions.push_back({what, fmt::format("{} times", count)});
   }
@@ -281,23 +287,7 @@ std::optional<Eigen::Vector3d> NavigationEstimator::north_map() const {
 }
 
 std::vector<optimization::FactorUse> NavigationEstimator::factors() const {
-  std::vector<optimization::FactorUse> uses{{"inertial rotation"},       {"inertial velocity"},
-                                            {"inertial position"},       {"gyro bias walk"},
-                                            {"accelerometer bias walk"}, {"wheel scale walk"},
-                                            {"wheel turn walk"},         {"GNSS latency walk"},
-                                            {"GNSS bias walk"},          {"prior"}};
-  if (!gnss_.empty()) {
-    const bool is_pose = options_.gnss.form == inertial::GnssForm::kPose;
-    uses.push_back({is_pose ? "GNSS pose" : "GNSS position"});
-    if (!is_pose) uses.push_back({"heading"});
-    if (is_pose) uses.push_back({"GNSS position"});  // of fixes without a heading
-  }
-  if (!wheels_.empty() && options_.wheels.use) {
-    const bool is_world = options_.wheels.form == inertial::WheelForm::kWorldVelocity;
-    uses.push_back({is_world ? "world velocity" : "wheel velocity"});
-    uses.push_back({"zero velocity"});
-  }
-  return uses;
+  return inertial::factors_of(options_, !gnss_.empty(), !wheels_.empty());
 }
 
 }  // namespace traverse::pipeline

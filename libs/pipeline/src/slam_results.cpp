@@ -1,12 +1,9 @@
 #include "slam_results.hpp"
 
-#include <cmath>
-#include <cstdint>
 #include <span>
-#include <tsl/robin_set.h>
 #include <vector>
 
-#include "traverse/geometry/voxel.hpp"
+#include "traverse/geometry/voxel_set.hpp"
 #include "traverse/slam/slam.hpp"
 
 namespace traverse::pipeline {
@@ -14,7 +11,7 @@ namespace traverse::pipeline {
 void WaitingForScore::add(std::size_t frame, const UsedScan& scan) {
   std::vector<float> x, y, z;
   // The score reduces again by the same cubes, of which these are the first points too.
-  tsl::robin_set<std::uint64_t, geometry::VoxelHash> occupied;
+  geometry::VoxelSet voxels(evaluation::consistency::kVoxel_m);
   for (std::size_t i = 0; i < scan.x.size(); ++i) {
     const Eigen::Vector3d p(scan.x[i], scan.y[i], scan.z[i]);
     const double range_m = p.norm();
@@ -22,9 +19,7 @@ void WaitingForScore::add(std::size_t frame, const UsedScan& scan) {
           range_m <= evaluation::consistency::kMostRange_m)) {
       continue;
     }
-    if (!occupied.insert(geometry::voxel_key(p, evaluation::consistency::kVoxel_m)).second) {
-      continue;
-    }
+    if (!voxels.insert(p)) continue;
     x.push_back(scan.x[i]);
     y.push_back(scan.y[i]);
     z.push_back(scan.z[i]);

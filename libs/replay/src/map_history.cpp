@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <tsl/robin_map.h>
-#include <tsl/robin_set.h>
 #include <utility>
 
 #include "traverse/geometry/voxel.hpp"
+#include "traverse/geometry/voxel_set.hpp"
 
 namespace traverse::replay {
 
@@ -37,12 +37,14 @@ std::size_t below(const std::vector<std::uint32_t>& indices, std::size_t end) {
 }  // namespace
 
 struct MapHistory::Voxels {
-  tsl::robin_set<std::uint64_t, geometry::VoxelHash> taken;
+  explicit Voxels(double voxel_m) : taken(voxel_m) {}
+
+  geometry::VoxelSet taken;
   tsl::robin_map<std::uint64_t, std::uint32_t, geometry::VoxelHash> blocks;  // key -> blocks_
 };
 
 MapHistory::MapHistory(double voxel_m, std::size_t max_points)
-    : voxel_m_(voxel_m), max_points_(max_points), voxels_(std::make_unique<Voxels>()) {}
+    : voxel_m_(voxel_m), max_points_(max_points), voxels_(std::make_unique<Voxels>(voxel_m)) {}
 MapHistory::MapHistory(MapHistory&&) noexcept = default;
 MapHistory& MapHistory::operator=(MapHistory&&) noexcept = default;
 MapHistory::~MapHistory() = default;
@@ -57,7 +59,7 @@ void MapHistory::add_frame(std::span<const Eigen::Vector3f> points_map,
 }
 
 void MapHistory::add(const Eigen::Vector3f& p_map, float intensity) {
-  if (!voxels_->taken.insert(geometry::voxel_key(p_map.cast<double>(), voxel_m_)).second) return;
+  if (!voxels_->taken.insert(p_map.cast<double>())) return;
   points_.push_back(p_map);
   intensities_.push_back(intensity);
   enter_block(static_cast<std::uint32_t>(points_.size() - 1));
@@ -78,7 +80,7 @@ void MapHistory::coarsen() {
   voxel_m_ *= 2;
   const auto points = std::exchange(points_, {});
   const auto intensities = std::exchange(intensities_, {});
-  *voxels_ = {};
+  *voxels_ = Voxels(voxel_m_);
   blocks_.clear();
   std::size_t i = 0;
   for (std::size_t& end : points_at_frame_) {

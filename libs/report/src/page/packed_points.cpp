@@ -4,10 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <tsl/robin_set.h>
 #include <zlib.h>
 
-#include "traverse/geometry/voxel.hpp"
+#include "traverse/geometry/voxel_set.hpp"
 
 #include "page/data_uri.hpp"
 
@@ -21,13 +20,10 @@ constexpr int kCompression = 6;
 
 std::vector<std::size_t> first_of_each_voxel(const std::vector<Eigen::Vector3f>& points,
                                              double voxel_m) {
-  tsl::robin_set<std::uint64_t, geometry::VoxelHash> taken;
-  taken.reserve(points.size());
+  geometry::VoxelSet voxels(voxel_m, points.size());
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (taken.insert(geometry::voxel_key(points[i].cast<double>(), voxel_m)).second) {
-      chosen.push_back(i);
-    }
+    if (voxels.insert(points[i].cast<double>())) chosen.push_back(i);
   }
   return chosen;
 }

@@ -2,24 +2,13 @@
 
 #include <nanoflann.hpp>
 
+#include "traverse/geometry/kd_tree_points.hpp"
+
 namespace traverse::report {
 
 namespace {
 
-/// Positions as nanoflann reads them.
-struct PosePositions {
-  std::vector<Eigen::Vector3f> points;
-
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  float kdtree_get_pt(std::size_t index, std::size_t axis) const {
-    return points[index][static_cast<Eigen::Index>(axis)];
-  }
-  template <typename Box>
-  bool kdtree_get_bbox(Box& /*box*/) const {
-    return false;
-  }
-};
-
+using PosePositions = geometry::KdTreePoints<std::vector<Eigen::Vector3f>>;
 using PoseTree =
     nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, PosePositions>,
                                         PosePositions, 3, std::uint32_t>;
