@@ -6,6 +6,12 @@ find_package(nanoflann REQUIRED)
 find_package(tsl-robin-map REQUIRED)
 find_path(TRAVERSE_HNSWLIB hnswlib/hnswlib.h REQUIRED)  # on the system's path
 find_path(TRAVERSE_RANDOM123 Random123/philox.h REQUIRED)  # on the system's path
+# Loaded when a bag needs them (libs/bags), by what their headers declare.
+foreach(header IN ITEMS bzlib.h lz4frame.h sqlite3.h zstd.h)
+  find_path(TRAVERSE_HEADER_${header} ${header} REQUIRED)
+endforeach()
+# Loaded when a capture needs it (libs/packets), by what its header declares.
+find_path(TRAVERSE_HEADER_pcap pcap/pcap.h REQUIRED)
 
 # TraverseTargets.cmake keeps these out of what the installed targets ask for.
 set(TRAVERSE_HEADERS_ONLY

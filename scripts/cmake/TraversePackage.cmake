@@ -24,8 +24,9 @@ set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
   "One command takes a recording (MRPT rawlog, KITTI, point clouds) to a trajectory, a map,
 pictures and one self-contained HTML report that a reviewer can audit.")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
-# Nothing links the font that pictures are labelled in.
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS fonts-dejavu-core)
+# Nothing links the font that pictures are labelled in, nor what is loaded when a bag or a capture needs it.
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS
+  "fonts-dejavu-core, libbz2-1.0, liblz4-1, libpcap0.8, libsqlite3-0, libzstd1")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "bash-completion, man-db, slurm-client, xvfb")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME traverse-dev)

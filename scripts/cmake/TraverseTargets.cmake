@@ -38,7 +38,7 @@ target_compile_options(traverse_build_flags INTERFACE
 if(TRAVERSE_SANITIZE)
   target_compile_options(traverse_build_flags INTERFACE
     -fsanitize=${TRAVERSE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
-  if(TRAVERSE_SANITIZE STREQUAL "address,undefined")
+  if(TRAVERSE_SANITIZE MATCHES "address,undefined")
     # Left out are the checks after whose errors the address sanitizer stops too.
     target_compile_options(traverse_build_flags INTERFACE -fno-sanitize=null,object-size)
   endif()
