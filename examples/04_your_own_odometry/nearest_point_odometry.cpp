@@ -2,10 +2,11 @@
 
 #include <chrono>
 #include <cmath>
-#include <unordered_set>
 
 #include "traverse/geometry/umeyama.hpp"
+#include "traverse/geometry/voxel_set.hpp"
 #include "traverse/lidar/deskew.hpp"
+#include "traverse/optimization/termination.hpp"
 
 using traverse::config::Range;
 using traverse::geometry::Pose3;
@@ -67,11 +68,11 @@ std::vector<lidar::Frame> NearestPointOdometry::process(const traverse::sensors:
 
 /// The first point of each voxel of the scan, in the order of the scan.
 NearestPointOdometry::Points NearestPointOdometry::thinned(const lidar::CorrectedScan& scan) const {
-  std::unordered_set<std::uint64_t> seen;
+  geometry::VoxelSet voxels(options_.voxel_m, scan.x.size());
   Points points;
   for (std::size_t i = 0; i < scan.x.size(); ++i) {
     const Eigen::Vector3d p(scan.x[i], scan.y[i], scan.z[i]);
-    if (seen.insert(geometry::voxel_key(p, options_.voxel_m)).second) points.push_back(p);
+    if (voxels.insert(p)) points.push_back(p);
   }
   return points;
 }
@@ -94,6 +95,8 @@ const Eigen::Vector3d* NearestPointOdometry::nearest(const Eigen::Vector3d& p_ma
 }
 
 void NearestPointOdometry::align(const Points& points_lidar, lidar::RegistrationHealth& health) {
+  using traverse::optimization::Termination;
+  health.end(Termination::kIterationLimit);
   for (int i = 0; i < options_.iterations; ++i) {
     Points from;
     Points to;
@@ -106,7 +109,10 @@ void NearestPointOdometry::align(const Points& points_lidar, lidar::Registration
       to.push_back(*partner);
       sum += (p_map - *partner).squaredNorm();
     }
-    if (from.size() < 10) return;  // the pose stays the prediction, and the report says so
+    if (from.size() < 10) {  // the pose stays the prediction, and the report says so
+      health.end(Termination::kTooFewMatches);
+      return;
+    }
     const Pose3 step = geometry::umeyama(from, to, false).T_y_x;
     T_map_lidar_ = (step * T_map_lidar_).orthonormalised();
     health.registered = true;
@@ -115,7 +121,10 @@ void NearestPointOdometry::align(const Points& points_lidar, lidar::Registration
     health.inlier_share =
         static_cast<double>(from.size()) / static_cast<double>(points_lidar.size());
     health.steps = i + 1;
-    if (geometry::log_se3(step).norm() < 1e-4) return;
+    if (geometry::log_se3(step).norm() < 1e-4) {
+      health.end(Termination::kConverged);
+      return;
+    }
   }
 }
 

@@ -48,10 +48,10 @@ int main(int argc, char** argv) {
          seconds);
   report("gins-odom", testing::two_frame(inertial::Trigger::kGnssAndWheels, sensors), with_headings,
          seconds);
-  inertial::NavigationOptions alike =
+  inertial::NavigationOptions paired =
       testing::two_frame(inertial::Trigger::kGnssAndWheels, sensors);
-  alike.pairing = inertial::Pairing::kAlike;
-  report("gins-odom, pairs alike", alike, with_headings, seconds);
+  paired.pairing = inertial::Pairing::kPaired;
+  report("gins-odom-paired", paired, with_headings, seconds);
   inertial::NavigationOptions window = testing::window(sensors);
   report("gins-window", window, drive, seconds);
   window.outage.spells_s = {10, 30, 60};

@@ -2,6 +2,7 @@
 /// at, so that a regression is seen. After an intended change:
 /// TRAVERSE_WRITE_ACCURACY=1 build/release/tests/end_to_end/accuracy_test, and say in the commit
 /// why.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -71,6 +72,37 @@ TEST(Accuracy, OfEveryPresetOnTheShortTownIsAsItWas) {
           << preset << ", " << name << ": " << now << " where it was " << then;
     }
   }
+}
+
+/// Sixteen rings between bare walls for a minute: how far the lidar seems to have gone from where
+/// it was first.
+TEST(Accuracy, ALidarThatStandsStaysWhereItIs) {
+  const testing::TemporaryFolder folder;
+  const std::string drive = (folder / "standing.rawlog").string();
+  ASSERT_EQ(testing::run_program("simulate corridor_loop --set route.standstill_s=60 --duration 60 "
+                                 "-o " +
+                                 drive)
+                .status,
+            0);
+  const fs::path run = folder / "run";
+  ASSERT_EQ(testing::run_program("run " + drive + " -o " + run.string() + " --no-report --no-hash")
+                .status,
+            0);
+  std::ifstream poses(run / "trajectory.tum");
+  std::string line;
+  std::size_t count = 0;
+  double farthest_m = 0;
+  while (std::getline(poses, line)) {
+    double stamp = 0;
+    double x = 0;
+    double y = 0;
+    double z = 0;
+    if (std::sscanf(line.c_str(), "%lf %lf %lf %lf", &stamp, &x, &y, &z) != 4) continue;
+    farthest_m = std::max(farthest_m, std::hypot(x, y, z));
+    ++count;
+  }
+  EXPECT_EQ(count, 600U);
+  EXPECT_LE(farthest_m, 0.015);
 }
 
 }  // namespace

@@ -47,6 +47,31 @@ TEST(CheckJacobians, EveryFactorOfTraversePasses) {
   }
 }
 
+/// The exercise's fourteen blocks, analytic beside numeric.
+TEST(CheckJacobians, ShowsTheBlocksOfThePreintegrationByTheBooksNames) {
+  const ProgramResult result = run_program("check-jacobians --factor inertial --show");
+  EXPECT_EQ(result.status, 0) << result.messages;
+  std::size_t before = 0;
+  for (const char* name :
+       {"dR/dR1", "dR/dbg1", "dR/dR2", "dv/dR1", "dv/dv1", "dv/dbg1", "dv/dba1", "dv/dv2", "dp/dR1",
+        "dp/dp1", "dp/dv1", "dp/dbg1", "dp/dba1", "dp/dp2"}) {
+    const std::size_t at = result.output.find(std::string(name) + ": analytic | automatic");
+    ASSERT_NE(at, std::string::npos) << name;
+    EXPECT_GT(at + 1, before) << name;
+    before = at;
+    const std::string most = "(at most ";
+    const std::size_t figure = result.output.find(most, at) + most.size();
+    EXPECT_LT(std::stod(result.output.substr(figure)), 1e-6) << name;
+  }
+  const ProgramResult lidar = run_program("check-jacobians --factor lidar --show");
+  for (const char* name : {"line vector", "line scalar", "plane absolute", "plane signed"}) {
+    EXPECT_THAT(lidar.output, HasSubstr(std::string(name) + ", right perturbation"));
+  }
+  const ProgramResult none = run_program("check-jacobians --factor lines");
+  EXPECT_EQ(none.status, 1);
+  EXPECT_THAT(none.messages, HasSubstr("no factor is called 'lines'"));
+}
+
 TEST(CheckJacobians, ABrokenFactorFailsAndIsNamed) {
   const TemporaryFolder folder;
   const ProgramResult result = run_program("check-jacobians --json " + (folder / "a.json").string(),

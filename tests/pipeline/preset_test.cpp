@@ -68,8 +68,8 @@ TEST(Preset, AFileInTheFormOfAPresetIsOne) {
 
 TEST(Preset, SaysWhatIsWrong) {
   EXPECT_THAT(error_of({"flaom", {}, {}}),
-              HasSubstr("one of aloam, floam, gins-gnss, gins-odom, gins-phone, "
-                        "gins-window, loam, traverse"));
+              HasSubstr("one of aloam, floam, gins-book, gins-gnss, gins-odom, gins-odom-paired, "
+                        "gins-phone, gins-window, loam, traverse"));
   EXPECT_THAT(error_of({"floam", {}, {"solver.huber=1"}}),
               HasSubstr("did you mean 'solver.huber_m'"));
   EXPECT_THAT(error_of({"floam", {}, {"solver.huber_m=-1"}}), HasSubstr("above 0"));
