@@ -42,8 +42,9 @@ OxtsStream read_oxts(const fs::path& folder, const std::vector<RecordStamp>& sta
   for (const ScanFile& file : stamped) {
     const std::string place = file.file.lexically_relative(recording).generic_string();
     if (!file.stamp) {
-      const std::string fault = file.fault == StampSequence::kNone ? "no stamp for the oxts packet"
-                                                                   : std::string(file.fault);
+      const std::string fault = std::string_view(file.fault) == StampSequence::kNone
+                                    ? "no stamp for the oxts packet"
+                                    : std::string(file.fault);
       stream.records.push_back({std::nullopt, last_stamp, fault, place});
       continue;
     }

@@ -74,7 +74,8 @@ class TableHeader {
   std::vector<std::string> columns_;
 };
 
-std::optional<fs::path> first_of_these(const fs::path& folder, Names names) {
+std::optional<fs::path> first_of_these(const fs::path& folder,
+                                       const std::vector<std::string_view>& names) {
   for (const std::string_view name : names) {
     if (fs::is_regular_file(folder / name)) return fs::path(name);
   }
@@ -137,7 +138,7 @@ KnownTables known_tables(const fs::path& folder) {
   KnownTables tables;
   using Take = bool (*)(const fs::path&, const fs::path&, KnownTables&);
   struct Kind {
-    Names names;
+    std::vector<std::string_view> names;
     Take take;
   };
   const std::array<Kind, 3> kinds{

@@ -1,5 +1,6 @@
 #include "recording/folder_source.hpp"
 
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -91,7 +92,8 @@ class FolderSource : public Source {
     const ScanFile& file = recording_.scans[next_scan_++];
     const std::string place = file.file.lexically_relative(recording_.info.path).generic_string();
     if (!file.stamp) {
-      skipped_.add(file.fault == StampSequence::kNone ? "no stamp for the scan" : file.fault,
+      skipped_.add(std::string_view(file.fault) == StampSequence::kNone ? "no stamp for the scan"
+                                                                        : file.fault,
                    place);
       return std::nullopt;
     }
