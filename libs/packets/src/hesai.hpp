@@ -25,17 +25,15 @@ struct HesaiLaser {
 /// The model by size and header; nothing: no data packet of one that is known.
 std::optional<HesaiModel> hesai_model(Bytes packet);
 
-/// The lasers by channel, as manuals or the maker's own files have them. Units differ by some
+/// The lasers by channel, as the files cited beside the tables have them. Units differ by some
 /// hundredths of a degree, which is in the file that comes with each.
 std::vector<HesaiLaser> hesai_lasers(HesaiModel model);
 
 /// When a channel fires after its block's time [us].
 double hesai_firing_us(HesaiModel model, std::size_t channel);
 
-/// Makes points of packets (Hesai, "Pandar40P User Manual" 401-en-2201A1, "Pandar64 User Manual"
-/// 640-en-2204A1, "PandarXT User Manual" X32-en-2205A1, "PandarQT User Manual" Q01-en-2204A1,
-/// "Pandar128 User Manual" 128-en-2204A1: chapter 3, data structure, and the appendices on firing
-/// times; tier4/nebula 606ac41, nebula_hesai_decoders/decoders).
+/// Makes points of packets. Layout and firing times are those of tier4/nebula 606ac41,
+/// nebula_hesai_decoders/decoders, and were not held against the maker's manuals.
 class HesaiDecoder : public PacketDecoder {
  public:
   /// \throws std::invalid_argument if the model has another number of lasers

@@ -9,7 +9,7 @@ namespace traverse::packets {
 
 namespace {
 
-// "Pandar40P User Manual" 401-en-2201A1, appendix I; calibration/Pandar40P.csv of tier4/nebula
+// calibration/Pandar40P.csv of tier4/nebula
 // 606ac41.
 constexpr std::array k40pElevations{
     14.794, 10.944, 7.971,  4.969,   2.952,  1.94,    1.6,     1.263,   0.925,   0.587,
@@ -22,7 +22,7 @@ constexpr std::array k40pAzimuths{-1.042, -1.042, -1.042, -1.042, -1.042, -1.042
                                   3.125,  -5.208, -1.042, 3.125,  -5.208, -1.042, -1.042, -1.042,
                                   -1.042, -1.042, -1.042, -1.042, -1.042, -1.042, -1.042, -1.042};
 
-// "Pandar64 User Manual" 640-en-2204A1, appendix I; calibration/Pandar64.csv of tier4/nebula
+// calibration/Pandar64.csv of tier4/nebula
 // 606ac41.
 constexpr std::array k64Elevations{
     14.9,   11.05,  8.077,   5.075,   3.058,   2.046,   1.878,   1.706,   1.54,   1.369,  1.202,
@@ -39,13 +39,13 @@ constexpr std::array k64Azimuths{
     5.208,  -5.208, -3.125, -1.042, 1.042,  3.125,  5.208,  -5.208, -3.125, -1.042, -1.042,
     -1.042, -1.042, -1.042, -1.042, -1.042, -1.042, -1.042, -1.042, -1.042};
 
-// "PandarXT-16 User Manual" X16-en-2205A1, appendix I.
+// calibration/PandarXT16.csv of tier4/nebula 606ac41.
 constexpr std::array kXt16Elevations{15.0, 13.0, 11.0, 9.0,  7.0,  5.0,   3.0,   1.0,
                                      -1.0, -3.0, -5.0, -7.0, -9.0, -11.0, -13.0, -15.0};
 
-// Of a unit (calibration/PandarXT32.csv of tier4/nebula 606ac41): the design of the "PandarXT User
-// Manual" X32-en-2205A1, appendix I, is 15 to -16 degrees in whole degrees and no azimuths, which
-// leaves out that the lasers are turned against each other by what the head turns between them.
+// Of a unit (calibration/PandarXT32.csv of tier4/nebula 606ac41): by design it would be whole
+// degrees from 15 to -16 as in the XT16's file, without azimuths, which leaves out that the lasers
+// are turned against each other by what the head turns between them.
 constexpr std::array kXt32Elevations{
     14.972363, 13.952372,  12.938632, 11.931141,  10.926151,  9.92241,    8.917419,   7.917429,
     6.919938,  5.919947,   4.922456,  3.924965,   2.929974,   1.936233,   0.944992,   -0.0475,
@@ -57,7 +57,7 @@ constexpr std::array kXt32Azimuths{
     -0.025654, -0.031126, -0.037837, -0.045822, -0.061312, -0.06557,  -0.068599, -0.076658,
     -0.088476, -0.09158,  -0.098438, -0.092837, -0.102247, -0.104231, -0.118783, -0.129679};
 
-// "PandarQT User Manual" Q01-en-2204A1, appendix I; calibration/PandarQT64.csv of tier4/nebula
+// calibration/PandarQT64.csv of tier4/nebula
 // 606ac41.
 constexpr std::array kQt64Elevations{
     -52.121, -49.785, -47.577, -45.477, -43.465, -41.528, -39.653, -37.831, -36.055, -34.32,
@@ -75,7 +75,7 @@ constexpr std::array kQt64Azimuths{
     5.759,  5.808,  5.862,  5.921,  -5.33,  -5.396, -5.469, -5.55,  -5.64,  -5.74,  -5.85,
     -5.974, -6.113, -6.269, -6.447, -6.651, -6.887, -7.163, -7.493, -7.892};
 
-// "Pandar128 User Manual" 128-en-2204A1, appendix I; convert.cc of HesaiTechnology's
+// convert.cc of HesaiTechnology's
 // HesaiLidar_Pandar128_ROS (2021).
 constexpr std::array k128Elevations{
     14.436,  13.535,  13.08,   12.624,  12.163,  11.702,  11.237,  10.771,  10.301,  9.83,
@@ -104,7 +104,7 @@ constexpr std::array k128Azimuths{
     -1.141, 3.416,  -1.142, 1.14,   -1.143, 1.143,  -3.426, 1.146,  -3.429, 1.147,  -3.433, 1.15,
     -3.436, 1.152,  -3.44,  1.154,  -3.443, 1.157,  -3.446, -3.449};
 
-// Appendix II of the same manuals (40P, 64, QT); decoders/pandar_40.hpp, pandar_64.hpp and
+// Of the 40P, 64 and QT: decoders/pandar_40.hpp, pandar_64.hpp and
 // pandar_qt64.hpp of tier4/nebula 606ac41, where channel 56 of the QT64 lacks a digit.
 constexpr std::array k40pFiring_us{-42.22, -28.47, -16.04, -3.62,  -45.49, -31.74, -47.46, -54.67,
                                    -20.62, -33.71, -40.91, -8.19,  -20.62, -27.16, -50.73, -8.19,
@@ -127,7 +127,7 @@ constexpr std::array kQt64Firing_us{
     105.98, 108.04, 110.10, 112.15, 115.20, 117.26, 119.32, 121.38, 123.43, 125.49, 127.54,
     129.60, 132.05, 134.11, 136.17, 138.22, 140.28, 142.34, 144.39, 146.45};
 
-// Of a Pandar128 (appendix II; decoders/pandar_128e3x.hpp of tier4/nebula 606ac41) [ns]: by the
+// Of a Pandar128 (decoders/pandar_128e3x.hpp of tier4/nebula 606ac41) [ns]: by the
 // azimuth's state, of channels that fire then at high resolution; -1: of the others. At standard
 // resolution all fire, some in a second half that is 27.778 us later and has the times of the next
 // state. For what is nearer than 2.85 m some fire once more.
@@ -263,7 +263,7 @@ double hesai_firing_us(HesaiModel model, std::size_t channel) {
       return k40pFiring_us.at(channel);
     case HesaiModel::kPandar64:
       return k64Firing_us.at(channel);
-    case HesaiModel::kXt16:  // "PandarXT User Manual", appendix II: every second time of an XT32
+    case HesaiModel::kXt16:  // every second time of an XT32
       return 0.368 + 3.024 * static_cast<double>(channel);
     case HesaiModel::kXt32:
       return 0.368 + 1.512 * static_cast<double>(channel);

@@ -28,9 +28,7 @@ std::optional<OusterImu> decode_ouster_imu(Bytes packet);
 
 /// Makes points of lidar packets, in the sensor frame. The intensity is the reflectivity, which all
 /// profiles have; a pixel with two returns gives two points. Rings are rows, the highest first.
-/// (Ouster, "Firmware User Manual" 2.5 and 3.1, chapters "Lidar Data Packet Format" and
-/// "Coordinate Frames and XYZ Calculation"; ouster_core/src/parsing.cpp of ouster-lidar/ouster-sdk
-/// 46b7bce.)
+/// (ouster_core/src/parsing.cpp of ouster-lidar/ouster-sdk 46b7bce.)
 class OusterDecoder : public PacketDecoder {
  public:
   explicit OusterDecoder(OusterMetadata metadata);

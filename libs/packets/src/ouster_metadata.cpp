@@ -93,12 +93,13 @@ class MetadataKeys {
   const std::filesystem::path& file_;
 };
 
-/// Revisions whose firmware did not tell how far beams begin from the axis ("Software User Manual"
-/// 2.0, "Lidar Coordinate Frame"): OS0, OS1 and OS2.
+/// How far beams begin from the axis where the firmware did not tell [mm]; the last is that of the
+/// first generation (ouster_core/src/sensor_info.cpp of ouster-lidar/ouster-sdk 46b7bce).
 double origin_of(const std::string& product) {
-  if (product.starts_with("OS-0")) return 27.67;
-  if (product.starts_with("OS-2")) return 13.762;
-  return 15.806;
+  if (product.starts_with("OS-0-")) return 27.67;
+  if (product.starts_with("OS-1-")) return 15.806;
+  if (product.starts_with("OS-2-")) return 13.762;
+  return 12.163;
 }
 
 }  // namespace

@@ -9,16 +9,16 @@ namespace {
 
 constexpr double kLaserDegree = std::numbers::pi / 180;
 
-// "VLP-16 User Manual" 63-9243 rev. F, table 9-1; calibration/VLP16.yaml of tier4/nebula 606ac41.
+// calibration/VLP16.yaml of tier4/nebula 606ac41.
 constexpr std::array kVlp16{-15.0, 1.0, -13.0, 3.0,  -11.0, 5.0,  -9.0, 7.0,
                             -7.0,  9.0, -5.0,  11.0, -3.0,  13.0, -1.0, 15.0};
 
-// "Puck Hi-Res User Manual" 63-9318, table 9-1; calibration/VLP16_hires.yaml of tier4/nebula
+// calibration/VLP16_hires.yaml of tier4/nebula
 // 606ac41.
 constexpr std::array kVlp16HiRes{-10.0,  0.667, -8.667, 2.0,   -7.333, 3.333, -6.0,   4.667,
                                  -4.667, 6.0,   -3.333, 7.333, -2.0,   8.667, -0.667, 10.0};
 
-// "VLP-32C User Manual" 63-9325 rev. E, table 9-1; params/VeloView-VLP-32C.yaml of
+// params/VeloView-VLP-32C.yaml of
 // ros-drivers/velodyne 29abd0e.
 constexpr std::array kVlp32c{-25.0,  -1.0,  -1.667, -15.639, -11.31, 0.0,   -0.667, -8.843,
                              -7.254, 0.333, -0.333, -6.148,  -5.333, 1.333, 0.667,  -4.0,
@@ -28,14 +28,14 @@ constexpr std::array kVlp32cAzimuths{
     -1.4, 4.2, -1.4, 1.4, -1.4, 1.4, -4.2, 1.4, -1.4, 4.2, -1.4, 1.4, -4.2, 1.4, -4.2, 1.4,
     -1.4, 4.2, -1.4, 4.2, -4.2, 1.4, -1.4, 1.4, -1.4, 1.4, -1.4, 4.2, -4.2, 1.4, -1.4, 1.4};
 
-// "HDL-32E User Manual" 63-9113 rev. M, appendix A; params/32db.yaml of ros-drivers/velodyne
+// params/32db.yaml of ros-drivers/velodyne
 // 29abd0e.
 constexpr std::array kHdl32e{-30.67, -9.33, -29.33, -8.0,  -28.0,  -6.67, -26.67, -5.33,
                              -25.33, -4.0,  -24.0,  -2.67, -22.67, -1.33, -21.33, 0.0,
                              -20.0,  1.33,  -18.67, 2.67,  -17.33, 4.0,   -16.0,  5.33,
                              -14.67, 6.67,  -13.33, 8.0,   -12.0,  9.33,  -10.67, 10.67};
 
-// "VLS-128 User Manual" 63-9483 rev. B, table 9-1; params/VLS128.yaml of ros-drivers/velodyne
+// params/VLS128.yaml of ros-drivers/velodyne
 // 29abd0e. The azimuths repeat every eight lasers.
 constexpr std::array kVls128{
     -11.742, -1.99,   3.4,   -5.29,   -0.78, 4.61,  -4.08,   1.31,   -6.5,  -1.11,   4.28,  -4.41,

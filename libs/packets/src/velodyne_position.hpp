@@ -9,8 +9,8 @@
 
 namespace traverse::packets {
 
-/// What a Velodyne passes on of the receiver at its box ("VLP-16 User Manual" 63-9243, section 9.4;
-/// "HDL-32E User Manual" 63-9113, appendix C).
+/// What a Velodyne passes on of the receiver at its box (as MRPT 2.5.8 lays it
+/// out, TVelodynePositionPacket in CObservationVelodyneScan.h).
 struct VelodynePosition {
   std::uint32_t microseconds = 0;  ///< of the hour, by the lidar's clock
   std::string sentence;            ///< NMEA, without the line's end; empty: no receiver

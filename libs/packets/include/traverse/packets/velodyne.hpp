@@ -51,13 +51,12 @@ std::optional<VelodyneModel> velodyne_model(VelodynePacket packet);
 /// Returns in the packet; of two returns of one firing that are the same, one.
 std::size_t velodyne_returns(VelodynePacket packet, VelodyneModel model);
 
-/// The lasers as the manual draws them, in the order of the packets; of the HDL-64E, whose lasers
+/// The lasers by design, in the order of the packets; of the HDL-64E, whose lasers
 /// differ from unit to unit, none.
 std::vector<VelodyneLaser> velodyne_lasers(VelodyneModel model);
 
-/// Makes points of packets (Velodyne, "VLP-16 User Manual" 63-9243, chapters 6 and 9; "VLP-32C User
-/// Manual" 63-9325, chapter 9; "HDL-32E User Manual" 63-9113, appendix A; "HDL-64E S3 User's
-/// Manual" 63-HDL64ES3, appendices A to E; "VLS-128 User Manual" 63-9483, chapter 9).
+/// Makes points of packets. Firing times are those of ros-drivers/velodyne 29abd0e
+/// (velodyne_pointcloud/src/lib/rawdata.cc), of the HDL-64E those of share/sensors/hdl64e.yaml.
 class VelodyneDecoder : public PacketDecoder {
  public:
   /// \param lasers in the order of the packets: 16, 32, 64 or 128
