@@ -40,7 +40,7 @@ Trajectory random_trajectory(unsigned seed, bool with_products) {
   Trajectory trajectory;
   for (std::int64_t i = 0; i < 2000; ++i) {
     Pose3 pose = random.pose(std::numbers::pi, 1000);
-    if (with_products) pose = pose * random.pose(1, 1) * random.pose(1, 1);
+    for (int factor = 0; with_products && factor < 2; ++factor) pose = pose * random.pose(1, 1);
     trajectory.push_back(Stamp{1317042145123456789 + 100'000'007 * i}, pose);
   }
   return trajectory;

@@ -9,7 +9,8 @@
 
 namespace traverse::testing {
 
-/// Repeatable random vectors, rotations and poses.
+/// Repeatable random vectors, rotations and poses, the same from every compiler: each draw is a
+/// statement of its own or stands in braces, which alone have an order.
 class RandomMotion {
  public:
   explicit RandomMotion(unsigned seed) : generator_(seed) {}
@@ -22,7 +23,8 @@ class RandomMotion {
   }
   /// A rotation vector with a random axis and an angle up to `largest_angle`.
   Eigen::Vector3d rotation_vector(double largest_angle) {
-    return vector(1).normalized() * uniform(0, largest_angle);
+    const Eigen::Vector3d axis = vector(1).normalized();
+    return uniform(0, largest_angle) * axis;
   }
   geometry::Pose3 pose(double largest_angle, double largest_translation) {
     return {geometry::exp_so3(rotation_vector(largest_angle)), vector(largest_translation)};

@@ -62,7 +62,9 @@ struct Situation {
 
 Situation situation(optimization::RandomStates& random) {
   Situation s;
-  s.imu = std::make_shared<Preintegration>(ImuNoise{}, random.vector(0.02), random.vector(0.1));
+  const Eigen::Vector3d gyro_bias = random.vector(0.02);
+  const Eigen::Vector3d accelerometer_bias = random.vector(0.1);
+  s.imu = std::make_shared<Preintegration>(ImuNoise{}, gyro_bias, accelerometer_bias);
   const Eigen::Vector3d rate = random.vector(1);
   for (int k = 0; k < 40; ++k) {
     s.imu->add(rate + random.vector(0.3), Eigen::Vector3d(0, 0, 9.8) + random.vector(3), 0.01);

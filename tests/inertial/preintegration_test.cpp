@@ -117,7 +117,7 @@ TEST(Preintegration, CovarianceIsThatOfNoisyRuns) {
   Preintegration::Matrix9 sum = Preintegration::Matrix9::Zero();
   for (int n = 0; n < runs; ++n) {
     const Preintegration noisy = run([&](const Eigen::Vector3d& x, double density) {
-      const Eigen::Vector3d e(normal(generator), normal(generator), normal(generator));
+      const Eigen::Vector3d e{normal(generator), normal(generator), normal(generator)};
       return Eigen::Vector3d(x + density / std::sqrt(dt) * e);
     });
     Eigen::Matrix<double, 9, 1> d;

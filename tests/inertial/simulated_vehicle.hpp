@@ -135,8 +135,8 @@ inline SimulatedDrive simulate(const SimulatedVehicle& car, const SimulatedSenso
   std::mt19937 generator(s.seed);
   std::normal_distribution<double> normal;
   const auto noise = [&](double sigma) {
-    return Eigen::Vector3d(sigma * normal(generator), sigma * normal(generator),
-                           sigma * normal(generator));
+    return Eigen::Vector3d{sigma * normal(generator), sigma * normal(generator),
+                           sigma * normal(generator)};
   };
   const auto axle = car.axle_positions(seconds);
   const auto stamp = [](double t) { return geometry::Stamp::from_seconds(1000 + t); };

@@ -17,7 +17,7 @@ void fill(StandStillFinder& finder, const Eigen::Vector3d& tilt, const Eigen::Ve
   std::mt19937 generator(1);
   std::normal_distribution<double> normal(0, noise);
   const auto any = [&] {
-    return Eigen::Vector3d(normal(generator), normal(generator), normal(generator));
+    return Eigen::Vector3d{normal(generator), normal(generator), normal(generator)};
   };
   const Eigen::Vector3d up =
       geometry::exp_so3(tilt).transpose() * Eigen::Vector3d(0, 0, kGravity + extra_force);

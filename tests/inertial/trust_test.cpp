@@ -40,7 +40,7 @@ TEST(RejectedFixes, ThatScatterAreAsGoodAsTheirScatter) {
   std::mt19937 generator(1);
   std::normal_distribution<double> normal;
   for (int k = 0; k < 400; ++k) {
-    fixes.add(moment(0.01 * k), 3 * Eigen::Vector3d(normal(generator), normal(generator), 0),
+    fixes.add(moment(0.01 * k), 3 * Eigen::Vector3d{normal(generator), normal(generator), 0},
               1e-4 * Eigen::Matrix3d::Identity());
   }
   const auto line = fixes.line(3.9);
@@ -92,8 +92,8 @@ TEST(FixScatter, FindsTheDeviationOfFixesOnAnyMotion) {
         if (t < next) continue;
         next += 1 / hz;
         ++fixes;
-        Eigen::Vector3d z = p(t) + sigma * Eigen::Vector3d(normal(generator), normal(generator),
-                                                           2 * normal(generator));
+        Eigen::Vector3d z = p(t) + sigma * Eigen::Vector3d{normal(generator), normal(generator),
+                                                           2 * normal(generator)};
         if (fixes % 15 == 0) z.x() += 40;  // an outlier
         scatter.add(moment(t), z, Eigen::Vector3d::Zero());
       }

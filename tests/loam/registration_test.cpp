@@ -125,7 +125,7 @@ Matches noisy_planes(RandomMotion& random, const geometry::Pose3& truth, double 
 
 /// With residuals that are independent noise the normalised squared error is a chi-square of six.
 TEST(SolvePose, CovarianceIsThatOfTheErrors) {
-  constexpr int kTrials = 200;
+  constexpr int kTrials = 1000;
   RandomMotion random(6);
   SolverOptions options;
   options.iterations = 50;
@@ -142,7 +142,7 @@ TEST(SolvePose, CovarianceIsThatOfTheErrors) {
     const geometry::Twist error = geometry::log_se3(truth.inverse() * result.T_map_lidar);
     sum += error.dot(health.covariance().ldlt().solve(error));
   }
-  // 95 % of the mean of 200 chi-squares of six.
+  // 95 % of the mean of so many chi-squares of six.
   EXPECT_NEAR(sum / kTrials, 6, 2 * std::sqrt(2.0 * 6 / kTrials));
 }
 

@@ -77,7 +77,7 @@ std::vector<Finding> findings_of(double speed_mps, const Treatment& treatment) {
     Pose3 pose = drive.pose(0).inverse() * drive.pose(t);
     pose.translation *= treatment.odometry_scale;
     pose.translation +=
-        0.02 * Eigen::Vector3d(normal(generator), normal(generator), normal(generator));
+        0.02 * Eigen::Vector3d{normal(generator), normal(generator), normal(generator)};
     checks.take(std::make_shared<const LidarScan>(std::move(scan)));
     checks.take_pose(Stamp::from_seconds(100 + t), pose);
   }

@@ -126,7 +126,7 @@ struct Paths {
     std::normal_distribution<double> noise(0, 0.05);
     for (std::size_t k = 0; k < estimate.size(); ++k) {
       Pose3 pose = estimate.pose(k);
-      pose.translation += Eigen::Vector3d(noise(generator), noise(generator), noise(generator));
+      pose.translation += Eigen::Vector3d{noise(generator), noise(generator), noise(generator)};
       // In a map of its own.
       pose = Pose3{roll_pitch_yaw(0, 0, 70), Eigen::Vector3d(100, -20, 3)} * pose;
       Stamp stamp = estimate.stamp(k);

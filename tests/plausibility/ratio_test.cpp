@@ -48,7 +48,11 @@ TEST(Ratio, WithoutAFactorInCommonIsNotConsistent) {
   std::mt19937 generator(3);
   std::normal_distribution<double> normal;
   Ratio ratio;
-  for (int i = 0; i < 200; ++i) ratio.add(normal(generator), normal(generator));
+  for (int i = 0; i < 200; ++i) {
+    const double x = normal(generator);
+    const double y = normal(generator);
+    ratio.add(x, y);
+  }
   EXPECT_FALSE(ratio.find(50, 10)->is_consistent());
 }
 

@@ -25,8 +25,8 @@ struct Both {
     std::mt19937 generator(3);
     std::uniform_real_distribution<double> uniform(-1, 1);
     for (int i = 0; i < 25; ++i) {
-      const Vector3d base = middle + Vector3d(40 * uniform(generator), 40 * uniform(generator), 0);
-      const Vector3d size(2 + uniform(generator), 3 + uniform(generator), 6 + uniform(generator));
+      const Vector3d base = middle + Vector3d{40 * uniform(generator), 40 * uniform(generator), 0};
+      const Vector3d size{2 + uniform(generator), 3 + uniform(generator), 6 + uniform(generator)};
       const double yaw = 3 * uniform(generator);
       formulas.add_box(base, size, yaw, 0.5);
       mesh.add_box(upright(base, yaw), size, Material::kPlaster);
@@ -45,7 +45,7 @@ TEST(RayCaster, DistancesAreThoseOfTheFormulasToRounding) {
   std::normal_distribution<double> gaussian;
   std::vector<Ray> rays;
   for (int i = 0; i < 4000; ++i) {
-    const Vector3d direction(gaussian(generator), gaussian(generator), 0.3 * gaussian(generator));
+    const Vector3d direction{gaussian(generator), gaussian(generator), 0.3 * gaussian(generator)};
     rays.push_back({both.middle + Vector3d(0.3, 0.2, 2.5), direction.normalized()});
   }
   std::vector<SurfaceHit> hits(rays.size());

@@ -22,7 +22,7 @@ ScanMatches random_matches(unsigned seed, std::size_t planes, std::size_t lines,
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform(-1, 1);
   const auto direction = [&] {
-    return Eigen::Vector3d(normal(generator), normal(generator), normal(generator)).normalized();
+    return Eigen::Vector3d{normal(generator), normal(generator), normal(generator)}.normalized();
   };
   ScanMatches matches;
   matches.origin_map = origin_near(T_map_lidar.translation);

@@ -18,13 +18,13 @@ struct RandomCloud {
               const Eigen::Vector3d& centre) {
     std::mt19937 generator(seed);
     std::normal_distribution<double> normal;
-    const Eigen::Quaterniond q(normal(generator), normal(generator), normal(generator),
-                               normal(generator));
+    const Eigen::Quaterniond q{normal(generator), normal(generator), normal(generator),
+                               normal(generator)};
     axes = q.normalized().toRotationMatrix();
     for (int i = 0; i < count; ++i) {
-      points.push_back(centre + axes * Eigen::Vector3d(sigma.x() * normal(generator),
+      points.push_back(centre + axes * Eigen::Vector3d{sigma.x() * normal(generator),
                                                        sigma.y() * normal(generator),
-                                                       sigma.z() * normal(generator)));
+                                                       sigma.z() * normal(generator)});
     }
   }
 
