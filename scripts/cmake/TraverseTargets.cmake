@@ -121,22 +121,33 @@ endfunction()
 add_custom_target(unit_tests)
 add_custom_target(sanitized_tests)
 
-# traverse_test(NAME SOURCES ... USES ... [LABEL label] [SHARDS n] [TIMEOUT seconds] [LONG])
+# traverse_test(NAME SOURCES ... USES ... [LABEL label] [SHARDS n] [TIMEOUT seconds] [LONG]
+#               [LONG_SANITIZED SUITE.CASE...])
 #
 # Defines the GoogleTest program NAME_test and registers it with CTest under LABEL (unit where none is
 # given; end-to-end, window, slurm; tests/browser has its own): once, or as n shards that run side by
 # side. LONG: it has suites whose names begin with Long, which are a test of their own with the label
-# long and run under `scripts/test --long` only. Cases share a process, because loading the libraries
+# long and run under `scripts/test --long` only. LONG_SANITIZED: these (patterns as --gtest_filter
+# takes them) give the same code other figures, and under a sanitizer, ten times as slow, they are
+# long too. Cases share a process, because loading the libraries
 # and setting up a suite take longer than most of them; `NAME_test --gtest_filter=SUITE.CASE` runs one.
 function(traverse_test name)
-  cmake_parse_arguments(ARG "LONG" "LABEL;SHARDS;TIMEOUT" "SOURCES;USES" ${ARGN})
+  cmake_parse_arguments(ARG "LONG" "LABEL;SHARDS;TIMEOUT" "SOURCES;USES;LONG_SANITIZED" ${ARGN})
   if(NOT ARG_LABEL)
     set(ARG_LABEL unit)
   endif()
-  set(filter "")
+  set(long "")
   if(ARG_LONG)
-    set(filter --gtest_filter=-Long*)
-    add_test(NAME ${name}.long COMMAND ${name}_test --gtest_filter=Long*)
+    list(APPEND long Long*)
+  endif()
+  if(TRAVERSE_SANITIZE)
+    list(APPEND long ${ARG_LONG_SANITIZED})
+  endif()
+  set(filter "")
+  if(long)
+    list(JOIN long : long)
+    set(filter --gtest_filter=-${long})
+    add_test(NAME ${name}.long COMMAND ${name}_test --gtest_filter=${long})
     set_tests_properties(${name}.long PROPERTIES TIMEOUT 3600 LABELS long)
   endif()
   if(NOT ARG_TIMEOUT)
