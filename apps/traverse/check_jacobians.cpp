@@ -27,6 +27,7 @@ namespace {
 constexpr const char* kFooter = R"(Example:
   traverse check-jacobians --states 1000 --seed 7 --json jacobians.json
   traverse check-jacobians --factor inertial --show
+  traverse check-jacobians --show --run RUN --frame 200
 
 Each factor's analytic Jacobian is compared at random states, away from zero residual, with the
 automatic one (dual numbers) and with central differences of the factor's own value, for a rotation
@@ -45,6 +46,8 @@ struct Arguments {
   std::optional<std::filesystem::path> json;
   std::string factor;
   bool is_shown = false;
+  std::string run;  ///< whose states are shown in place of random ones
+  std::size_t frame = 0;
 };
 
 std::string difference_text(double value) {
@@ -151,6 +154,10 @@ std::string blocks_text(const optimization::ShownBlock& block) {
 }
 
 void show_jacobians(const Arguments& arguments) {
+  if (!arguments.run.empty()) {
+    fmt::print("At frames {} and {} of {}, between them a constant rate and acceleration\n\n",
+               arguments.frame - 1, arguments.frame, arguments.run);
+  }
   for (const auto& kind : chosen(arguments)) {
     for (const auto perturbation : kind.perturbations) {
       const auto shown = optimization::show_jacobians(kind, perturbation, arguments.options);
@@ -165,7 +172,14 @@ void show_jacobians(const Arguments& arguments) {
   }
 }
 
-void check_jacobians(const Arguments& arguments) {
+void check_jacobians(const Arguments& given) {
+  Arguments arguments = given;
+  if (!arguments.run.empty()) {
+    arguments.kinds = pipeline::factor_kinds_of_run({arguments.run}, arguments.frame);
+    arguments.options.states = 1;
+    arguments.options.min_residual = 0;  // a run's states agree with what was measured
+    arguments.is_shown = true;
+  }
   if (arguments.is_shown) {
     show_jacobians(arguments);
     return;
@@ -203,6 +217,15 @@ void add_check_jacobians(CLI::App& app, std::vector<optimization::FactorKind> ki
   command->add_flag(
       "--show", arguments->is_shown,
       "print the Jacobians at the first state, analytic beside automatic and numeric");
+  auto* run = command
+                  ->add_option("--run", arguments->run,
+                               "show the inertial factor at a frame of this navigation run")
+                  ->type_name("RUN");
+  command
+      ->add_option("--frame", arguments->frame,
+                   "of the run, as frames.csv counts them: the factor from the one before to it")
+      ->check(CLI::PositiveNumber)
+      ->needs(run);
   command->add_option("--json", arguments->json, "write every figure to this file")
       ->type_name("FILE");
   command->footer(kFooter);

@@ -63,13 +63,14 @@ constexpr const char* kExamples = R"(Examples:
   traverse simulate park -o park.rawlog --sensor vlp16 --duration 20
   traverse simulate town_loop -o sequence --format kitti --seed 4 --set place.vehicles=6
   traverse simulate town_loop -o other_day.rawlog --drive-seed 100
+  traverse simulate robot -o robot.txt --sensor vlp16
   traverse simulate highway -o fast.rawlog --set route.speed_mps=36 --set imu.rate_hz=200
 
 Beside X.rawlog stand X.traverse.yaml (what holds of it), X.reference.tum (the exact poses),
 X.rig.yaml (the calibration), X.world.yaml (every setting, to be simulated again) and X.gnss.csv
 (headings and deviations, which rawlogs have no place for). A KITTI folder holds the same files
 without X., and poses.txt and calib.txt of a camera 0 that looks ahead from the lidar's place; of the
-other sensors it has gnss.csv only. The same seed gives the same bytes. Files of an earlier simulation
+other sensors it has gnss.csv only. A text log (X.txt) holds IMU, wheels and fixes with headings. The same seed gives the same bytes. Files of an earlier simulation
 are replaced when the new ones are complete; a KITTI folder must be new or empty.)";
 
 void list(const fs::path& share) {
@@ -139,10 +140,18 @@ SweepRange choose_sweeps(const Simulation& simulation, const SimulateArguments& 
   return sweeps;
 }
 
-bool is_kitti(const SimulateArguments& arguments) {
-  if (!arguments.format.empty()) return arguments.format == "kitti";
-  return fs::path(arguments.output).extension() != ".rawlog";
+/// What the name of a file says that it is to hold; a folder is KITTI's.
+std::string format_of_name(const fs::path& output) {
+  const fs::path ending = output.extension();
+  if (ending == ".rawlog") return "rawlog";
+  return ending == ".txt" || ending == ".log" ? "log" : "kitti";
 }
+
+std::string format_of(const SimulateArguments& arguments) {
+  return arguments.format.empty() ? format_of_name(arguments.output) : arguments.format;
+}
+
+bool is_kitti(const SimulateArguments& arguments) { return format_of(arguments) == "kitti"; }
 
 dataset::RecordingInfo describe(const Simulation& simulation, const SimulateArguments& arguments,
                                 std::size_t scans) {
@@ -195,12 +204,13 @@ void simulate(const SimulateArguments& arguments) {
   const dataset::Reference truth{
       kitti ? simulation.truth(sweeps) : simulation.truth_of_all_sensors(sweeps), arguments.output,
       "exact truth of the simulation", Eigen::Vector3d::UnitY()};
+  const bool log = format_of(arguments) == "log";
+  const dataset::FilesThere there{arguments.force, {kCalibration, kWorld, kGnss}};
   const auto writer =
       kitti ? dataset::write_scan_folder(arguments.output, info, truth, info.rig.sensors[0].label,
                                          dataset::ScanFolderFormat::kKitti)
-            : dataset::write_rawlog(
-                  arguments.output, info, truth,
-                  {arguments.gzip_level, {arguments.force, {kCalibration, kWorld, kGnss}}});
+      : log ? dataset::write_navigation_log(arguments.output, info, truth, there)
+            : dataset::write_rawlog(arguments.output, info, truth, {arguments.gzip_level, there});
   GnssTable gnss;
   ProgressBar bar("simulating", scans, "scans");
   std::size_t done = 0;
@@ -213,6 +223,10 @@ void simulate(const SimulateArguments& arguments) {
       return;
     }
     points += (*scan)->size();
+    if (log) {
+      bar.update(++done);
+      return;
+    }
     if (kitti) {
       writer->add(std::make_shared<const sensors::LidarScan>(simulation::in_ring_order(**scan)));
     } else {
@@ -237,9 +251,9 @@ void check(const SimulateArguments& arguments) {
   if (arguments.list) return;
   if (arguments.world.empty()) throw CLI::RequiredError("WORLD");
   if (arguments.output.empty()) throw CLI::RequiredError("--output");
-  const bool named_rawlog = fs::path(arguments.output).extension() == ".rawlog";
-  if (is_kitti(arguments) == named_rawlog) {
-    throw CLI::ValidationError("--output", "a rawlog ends in .rawlog, a KITTI folder does not");
+  if (format_of(arguments) != format_of_name(arguments.output)) {
+    throw CLI::ValidationError(
+        "--output", "a rawlog ends in .rawlog, a text log in .txt or .log, a KITTI folder in none");
   }
   if (arguments.last < arguments.first) {
     throw CLI::ValidationError("--last", "is before --first");
@@ -253,11 +267,14 @@ CLI::App* declare(CLI::App& app, const std::shared_ptr<SimulateArguments>& argum
       "drive a lidar, an IMU, wheels and GNSS through a made-up place; write the recording with "
       "its exact truth");
   command->add_option("WORLD", arguments->world, "a world of --list, or a file like theirs");
-  command->add_option("-o,--output", arguments->output, "X.rawlog, or a folder for KITTI's layout")
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "X.rawlog, X.txt for a text log without scans, or a folder for KITTI's layout")
       ->type_name("PATH");
   command->add_flag("--list", arguments->list, "list the worlds and the sensors");
-  command->add_option("--format", arguments->format, "rawlog or kitti, if the name does not tell")
-      ->check(CLI::IsMember({"rawlog", "kitti"}))
+  command
+      ->add_option("--format", arguments->format, "rawlog, log or kitti, if the name does not tell")
+      ->check(CLI::IsMember({"rawlog", "log", "kitti"}))
       ->option_text("NAME");
   command->add_option("--sensor", arguments->sensor, "lidar of --list, or a file like theirs")
       ->option_text("NAME");

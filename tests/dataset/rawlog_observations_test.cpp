@@ -197,6 +197,8 @@ TEST(Rawlog, PlanarScansImuGnssAndWheels) {
   EXPECT_EQ(fix.longitude_deg, -2.5);
   EXPECT_EQ(fix.altitude_m, 150);
   EXPECT_FALSE(fix.heading_deg);
+  ASSERT_TRUE(fix.covariance_enu) << "fixed ambiguities";
+  EXPECT_LT((*fix.covariance_enu)(0, 0), 0.05 * 0.05);
   const auto& flat_fix = std::get<sensors::GnssFix>(all[2]);
   EXPECT_EQ(flat_fix.latitude_deg, 36.6);
   EXPECT_TRUE(std::isnan(flat_fix.altitude_m));

@@ -1,5 +1,6 @@
 // From a text log of navigation sensors to a report, and through other formats and back.
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -108,6 +109,32 @@ TEST_F(NavigationCommand, GoesFromATextLogToAReportAndToTheGrid) {
   };
   // tan(convergence) = tan(11.58 - 9 deg) sin(48.14 deg)
   EXPECT_NEAR(std::remainder(yaw(grid.pose(last)) - yaw(map.pose(last)), 360), 1.922, 0.01);
+
+  // What else an INS tells.
+  const auto origin = json::parse(files::read_text(*folder_ / "run" / "origin.json"));
+  EXPECT_NEAR(origin["latitude_deg"].get<double>(), 48.14, 1e-3);
+  const std::string places = files::read_text(*folder_ / "run" / "path.csv");
+  EXPECT_EQ(std::count(places.begin(), places.end(), '\n'),
+            static_cast<std::ptrdiff_t>(map.size()) + 1);
+  EXPECT_THAT(places, HasSubstr("stamp_s,latitude_deg,longitude_deg,altitude_m\n"));
+  EXPECT_THAT(files::read_text(*folder_ / "run" / "path.kml"), HasSubstr("11.58"));
+  EXPECT_THAT(files::read_text(*folder_ / "run" / "frames.csv"),
+              AllOf(HasSubstr("velocity_east_mps"), HasSubstr("sigma_roll_deg")));
+  EXPECT_FALSE(report["figures"]["jump_p95_m"]["interval"].is_null());
+  EXPECT_FALSE(report["figures"]["roughness_m"]["interval"].is_null());
+  // Asked before the update, the inertial factor's mean is 1 where the covariances are right.
+  for (const auto& row : report["tables"]["innovations"]["rows"]) {
+    if (row[0] != "inertial") continue;
+    EXPECT_GT(row[2].get<double>(), 0.3);
+    EXPECT_LT(row[2].get<double>(), 2);
+  }
+
+  const auto shown = run_program("check-jacobians --run " + file("run") + " --frame 100");
+  ASSERT_EQ(shown.status, 0) << shown.messages;
+  for (const char* block : {"dR/dR1", "dv/dv1", "dp/dba1", "dR/dR2", "dp/dp2", "dv/dv2"}) {
+    EXPECT_THAT(shown.output, HasSubstr(block));
+  }
+  EXPECT_EQ(run_program("check-jacobians --run " + file("run") + " --frame 99999").status, 1);
 }
 
 TEST_F(NavigationCommand, ConvertsToARawlogAndBack) {

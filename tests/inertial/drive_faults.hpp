@@ -57,6 +57,39 @@ inline void keep_headings_above(SimulatedDrive& drive, double mps) {
   }
 }
 
+/// The receiver goes over to float ambiguities about every `every_s` for `lasts_s`: all fixes are
+/// then off by one step of `step_m`, twice that in height.
+inline void step_fixes(SimulatedDrive& drive, double step_m, double every_s, double lasts_s,
+                       std::uint32_t seed = 3) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform(0.5, 1.5);
+  double begin = every_s * uniform(generator);
+  double end = begin + lasts_s * uniform(generator);
+  const auto draw = [&] {
+    const double east = normal(generator);
+    const double north = normal(generator);
+    const double up = normal(generator);
+    return Eigen::Vector3d(step_m * east, step_m * north, 2 * step_m * up);
+  };
+  Eigen::Vector3d step = draw();
+  for (auto& fix : drive.fixes) {
+    const double t = seconds_of(fix.stamp);
+    if (t > end) {
+      begin = t + every_s * uniform(generator);
+      end = begin + lasts_s * uniform(generator);
+      step = draw();
+    }
+    if (t < begin) continue;
+    const Eigen::Vector3d p =
+        drive.plane.to_enu({fix.latitude_deg, fix.longitude_deg, fix.altitude_m});
+    const auto off = drive.plane.to_geodetic(p + step);
+    fix.latitude_deg = off.latitude_deg;
+    fix.longitude_deg = off.longitude_deg;
+    fix.altitude_m = off.altitude_m;
+  }
+}
+
 /// The IMU shakes while the vehicle drives, white, as on a small robot.
 inline void shake(SimulatedDrive& drive, double force, double rate, std::uint32_t seed = 9) {
   std::mt19937 generator(seed);

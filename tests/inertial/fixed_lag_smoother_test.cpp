@@ -78,6 +78,23 @@ TEST(FixedLagSmoother, WhatNothingDeterminesIsAnError) {
 }
 
 /// Where the prior pulls back by x / s^2 and Huber's loss pulls by k / s, the shift is k.
+/// Asked before the solution, the innovation of a prediction is that of all its factors together,
+/// one row after the other: its mean over their number is 1 where the covariances are right.
+TEST(FixedLagSmoother, TellsHowThePredictionAgreesWithWhatConstrainsIt) {
+  FixedLagSmoother chain = smoother(window_of(2));
+  chain.start({}, sure_but_of_position(2));
+  chain.append(coasting(0.1, chain.newest()));
+  EXPECT_EQ(chain.innovation_of_newest().rows, 0);
+  chain.add(fix({5, 0, 0}, 1));
+  const Innovation one = chain.innovation_of_newest();
+  EXPECT_EQ(one.rows, 3);
+  EXPECT_NEAR(one.chi2, 5, 1e-3) << "25 / (4 + 1)";
+  chain.add(fix({5, 0, 0}, 1));
+  const Innovation both = chain.innovation_of_newest();
+  EXPECT_EQ(both.rows, 6);
+  EXPECT_NEAR(both.chi2, 25 / 4.5, 1e-3) << "they share the prediction's doubt: 25 / (4 + 1 / 2)";
+}
+
 TEST(FixedLagSmoother, HuberBoundsThePullOfAnOutlier) {
   for (const double outlier_m : {20.0, 100.0, 1000.0}) {
     FixedLagSmoother chain = smoother(window_of(2, 50));

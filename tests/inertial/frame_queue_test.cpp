@@ -98,9 +98,7 @@ TEST_F(FrameQueueOfAChain, SolutionsOfOneStateAddUp) {
   const int once = queue_.newest().iterations;
   solve();
   EXPECT_GT(queue_.newest().iterations, once);
-  EXPECT_EQ(queue_.newest().inertial.rows, 0) << "one state has no link";
   step();
-  EXPECT_EQ(queue_.newest().inertial.rows, 9);
   take_done();
   EXPECT_EQ(told_.size(), 1U) << "it is one frame";
 }

@@ -6,11 +6,13 @@
 
 #include <gtest/gtest.h>
 
+#include "factors/imu_shaking.hpp"
 #include "factors/rejected_fixes.hpp"
 #include "factors/wheel_jumps.hpp"
 #include "inertial/moment.hpp"
 #include "navigation/first_fixes.hpp"
 #include "navigation/fix_scatter.hpp"
+#include "navigation/heading_scatter.hpp"
 
 namespace traverse::inertial {
 namespace {
@@ -125,6 +127,74 @@ TEST(FirstFixes, TheFirstThatTheNextAgreesWithMakesTheOrigin) {
   ASSERT_TRUE(origin.has_value());
   EXPECT_EQ(origin->latitude_deg, 48.001);
   EXPECT_EQ(events.at("first fix that the next does not agree with"), 1U);
+}
+
+TEST(HeadingScatter, IsThatOfHeadingsThatAreNotWrongAltogether) {
+  constexpr double kTold = 0.005;
+  for (const double sigma : {0.005, 0.03}) {
+    for (const unsigned one_in : {0U, 10U, 4U}) {
+      HeadingScatter scatter;
+      std::mt19937 generator(2);
+      std::normal_distribution<double> normal;
+      std::uniform_real_distribution<double> angle(-3, 3);
+      for (int k = 0; k < 800; ++k) {  // a reading each 10 ms, a heading each 100 ms
+        sensors::ImuSample sample;
+        sample.stamp = moment(0.01 * k);
+        sample.angular_rate = {0, 0, 0.7};
+        scatter.add(sample);
+        if (k % 10 != 0) continue;
+        const double right = 0.7 * 0.01 * k + sigma * normal(generator);
+        const double wrong = angle(generator);
+        const bool is_wrong = one_in > 0 && generator() % one_in == 0;
+        scatter.add(sample.stamp, is_wrong ? wrong : right);
+      }
+      const double found = scatter.sigma(kTold);
+      if (sigma == kTold) {
+        EXPECT_EQ(found, kTold) << one_in;
+      } else {
+        EXPECT_NEAR(found, sigma, 0.35 * sigma) << one_in;
+      }
+    }
+  }
+}
+
+TEST(HeadingScatter, SaysNothingOfAFewHeadings) {
+  HeadingScatter scatter;
+  for (int k = 0; k < 10; ++k) scatter.add(moment(0.1 * k), k % 2);
+  EXPECT_EQ(scatter.sigma(0.01), 0.01);
+}
+
+/// Half a second of motion with noise of that deviation, after as much of rest.
+Preintegration::NoiseScale scale_of(double gyro, double force, double hz) {
+  ImuShaking shaking({2e-4, 2e-3, 2e-6, 1e-4});
+  std::mt19937 generator(4);
+  std::normal_distribution<double> normal;
+  for (int k = 0; k < 2 * hz; ++k) {
+    const double t = k / hz;
+    sensors::ImuSample sample;
+    sample.stamp = moment(t);
+    sample.angular_rate = {0, 0, std::sin(3 * t)};
+    sample.specific_force = {3 * std::sin(4 * t), 0, 9.8};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double of_rate = normal(generator);
+      const double of_force = normal(generator);
+      sample.angular_rate[axis] += gyro * of_rate;
+      sample.specific_force[axis] += force * of_force;
+    }
+    shaking.add(sample);
+  }
+  return shaking.scale();
+}
+
+TEST(ImuShaking, ScalesWhatIsToldByWhatReadingsScatterBy) {
+  for (const double hz : {100.0, 200.0}) {
+    const auto told = scale_of(2e-4 * std::sqrt(hz), 2e-3 * std::sqrt(hz), hz);
+    EXPECT_EQ(told.gyro, 1) << "as noisy as it says";
+    EXPECT_EQ(told.accelerometer, 1);
+    const auto shaken = scale_of(0.04, 1, hz);
+    EXPECT_NEAR(shaken.gyro, 0.04 / std::sqrt(hz) / 2e-4, 0.2 * shaken.gyro);
+    EXPECT_NEAR(shaken.accelerometer, 1 / std::sqrt(hz) / 2e-3, 0.2 * shaken.accelerometer);
+  }
 }
 
 }  // namespace

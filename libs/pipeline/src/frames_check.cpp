@@ -32,6 +32,8 @@ const std::vector<std::vector<std::string>>& column_groups() {
         {"eigenvalue_1", "degenerate_directions", "inlier_share"},
         {"inertial_chi2", "gnss_rows", "gnss_rejected"},
         {"outage_error_m", "outage_distance_m"},
+        {"correction_m", "roughness_m", "by_gnss", "fix_east_m", "fix_north_m", "fix_up_m",
+         "gnss_rows", "gnss_rejected"},
         {"wheel_scale", "wheel_scale_sigma"},
         {"wheel_pitch_deg", "wheel_pitch_sigma"},
         {"wheel_yaw_deg", "wheel_yaw_sigma"},

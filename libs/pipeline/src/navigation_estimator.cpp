@@ -1,5 +1,6 @@
 #include "navigation_estimator.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -22,6 +23,7 @@ using inertial::NavState;
 using sensors::SensorKind;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kNotMeasured = -1;
 
 const sensors::MountedSensor& imu_of(const dataset::RecordingInfo& recording) {
   const auto* imu = recording.rig.first(SensorKind::kImu);
@@ -60,12 +62,21 @@ inertial::NavigationOptions fitted(inertial::NavigationOptions options,
   return options;
 }
 
+/// What the record of a frame needs beside it.
+struct Beside {
+  /// The antenna from the body whose poses are told, in its axes [m]: a fix is told where it puts
+  /// that body, to stand beside the path.
+  Eigen::Vector3d p_antenna_told = Eigen::Vector3d::Zero();
+  double roughness_m = kNotMeasured;
+  bool is_smoothed = false;  ///< the path is told when later readings have had their say
+};
+
 /// The health record of a frame: its columns and their values are named in this one place. What was
-/// not measured is -1, as chi-square never is.
+/// not measured is -1, as neither chi-square nor a length ever is.
 template <typename Add>
-void for_each_value(const NavFrame& frame, const Add& add) {
+void for_each_value(const NavFrame& frame, const Beside& beside, const Add& add) {
   const auto chi2 = [&](const char* name, const Innovation& found) {
-    add(fmt::format("{}_chi2", name), found.rows > 0 ? found.chi2 : -1);
+    add(fmt::format("{}_chi2", name), found.rows > 0 ? found.chi2 : kNotMeasured);
     add(fmt::format("{}_rows", name), found.rows);
     add(fmt::format("{}_rejected", name), found.is_rejected ? 1 : 0);
   };
@@ -81,6 +92,14 @@ void for_each_value(const NavFrame& frame, const Add& add) {
   add("gnss_residual_east_m", frame.gnss_residual_enu.x());
   add("gnss_residual_north_m", frame.gnss_residual_enu.y());
   add("gnss_residual_up_m", frame.gnss_residual_enu.z());
+  const bool has_fix = frame.gnss.rows > 0;
+  const Eigen::Vector3d p_fix =
+      frame.p_antenna_fix_map - frame.state.q_map_body * beside.p_antenna_told;
+  add("fix_east_m", has_fix ? p_fix.x() : 0);
+  add("fix_north_m", has_fix ? p_fix.y() : 0);
+  add("fix_up_m", has_fix ? p_fix.z() : 0);
+  add("correction_m", beside.is_smoothed ? kNotMeasured : frame.correction_map.norm());
+  add("roughness_m", beside.roughness_m);
 
   const auto sigma = [&](int part) { return std::sqrt(frame.covariance(part, part)); };
   static constexpr std::array<std::string_view, 3> kAxes{"x", "y", "z"};
@@ -94,7 +113,19 @@ void for_each_value(const NavFrame& frame, const Add& add) {
   add("sigma_east_m", sigma(NavState::kPosition));
   add("sigma_north_m", sigma(NavState::kPosition + 1));
   add("sigma_up_m", sigma(NavState::kPosition + 2));
+  const Eigen::Matrix3d R = frame.state.rotation();
+  add("roll_deg", std::atan2(R(2, 1), R(2, 2)) * kDegrees);
+  add("pitch_deg", std::asin(std::clamp(-R(2, 0), -1.0, 1.0)) * kDegrees);
+  add("heading_deg", std::fmod(450 - std::atan2(R(1, 0), R(0, 0)) * kDegrees, 360));
+  add("sigma_roll_deg", sigma(NavState::kRotation) * kDegrees);
+  add("sigma_pitch_deg", sigma(NavState::kRotation + 1) * kDegrees);
   add("sigma_heading_deg", sigma(NavState::kRotation + 2) * kDegrees);
+  add("velocity_east_mps", frame.state.v_map.x());
+  add("velocity_north_mps", frame.state.v_map.y());
+  add("velocity_up_mps", frame.state.v_map.z());
+  add("sigma_velocity_east_mps", sigma(NavState::kVelocity));
+  add("sigma_velocity_north_mps", sigma(NavState::kVelocity + 1));
+  add("sigma_velocity_up_mps", sigma(NavState::kVelocity + 2));
   add("wheel_scale", frame.state.wheel_scale);
   add("wheel_scale_sigma", sigma(NavState::kWheelScale));
   add("wheel_pitch_deg", frame.state.wheel_turn[0] * kDegrees);
@@ -119,7 +150,8 @@ void for_each_value(const NavFrame& frame, const Add& add) {
 
 std::vector<std::string> names_of_columns() {
   std::vector<std::string> names;
-  for_each_value(NavFrame{}, [&](std::string name, double) { names.push_back(std::move(name)); });
+  for_each_value(NavFrame{}, {},
+                 [&](std::string name, double) { names.push_back(std::move(name)); });
   return names;
 }
 
@@ -134,6 +166,7 @@ NavigationEstimator::NavigationEstimator(const inertial::NavigationOptions& opti
       wheels_(label_of(recording, SensorKind::kWheels)),
       R_body_imu_(imu_of(recording).T_body_sensor.rotation),
       T_nav_body_{Eigen::Matrix3d::Identity(), -imu_of(recording).T_body_sensor.translation},
+      p_antenna_told_(mounts_of(recording).antenna_body - T_nav_body_.translation),
       navigation_(fitted(options, recording), mounts_of(recording)) {}
 
 const std::vector<std::string>& NavigationEstimator::columns() const {
@@ -202,6 +235,28 @@ void NavigationEstimator::count(const NavFrame& frame) {
   finish(fixes_, frame.gnss);
 }
 
+/// How much the path jerks at a fix: the second difference of its places at the fixes less what its
+/// own velocities account for, so that a bend that is driven smoothly has none.
+std::optional<double> NavigationEstimator::roughness(const NavFrame& frame) {
+  constexpr double kLongest_s = 1;
+  if (frame.restarted) at_fixes_.clear();
+  if (!frame.by_gnss) return std::nullopt;
+  at_fixes_.push_back(frame.state);
+  if (at_fixes_.size() < 3) return std::nullopt;
+  if (at_fixes_.size() > 3) at_fixes_.pop_front();
+  const NavState& a = at_fixes_[0];
+  const NavState& b = at_fixes_[1];
+  const NavState& c = at_fixes_[2];
+  const double before_s = geometry::seconds_between(a.stamp, b.stamp);
+  const double after_s = geometry::seconds_between(b.stamp, c.stamp);
+  if (!(before_s > 0 && after_s > 0) || before_s > kLongest_s || after_s > kLongest_s) {
+    return std::nullopt;
+  }
+  const Eigen::Vector3d change_of_velocity =
+      (c.p_map - b.p_map) / after_s - (b.p_map - a.p_map) / before_s;
+  return (change_of_velocity - (c.v_map - a.v_map) / 2).norm() * (before_s + after_s) / 2;
+}
+
 std::vector<PoseFrame> NavigationEstimator::to_body(const std::vector<NavFrame>& frames) {
   std::vector<PoseFrame> result;
   for (const NavFrame& frame : frames) {
@@ -211,7 +266,9 @@ std::vector<PoseFrame> NavigationEstimator::to_body(const std::vector<NavFrame>&
     out.stamp = frame.state.stamp;
     out.T_map_body = frame.state.T_map_body() * T_nav_body_;
     out.velocity.tail<3>() = frame.state.q_map_body.conjugate() * frame.state.v_map;
-    for_each_value(frame, [&](const auto&, double value) { out.record.push_back(value); });
+    const Beside beside{p_antenna_told_, roughness(frame).value_or(kNotMeasured),
+                        options_.window.output == inertial::WindowOutput::kOldest};
+    for_each_value(frame, beside, [&](const auto&, double value) { out.record.push_back(value); });
     out.milliseconds = milliseconds_;
     milliseconds_ = 0;
     result.push_back(std::move(out));

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,7 @@ class NavigationEstimator final : public Estimator {
 
   void count(const inertial::NavFrame& frame);
   std::string events_about(const std::string& word) const;
+  std::optional<double> roughness(const inertial::NavFrame& frame);
   std::vector<PoseFrame> to_body(const std::vector<inertial::NavFrame>& frames);
 
   inertial::NavigationOptions options_;
@@ -61,8 +63,10 @@ class NavigationEstimator final : public Estimator {
   std::string gnss_;  ///< label; empty: none
   std::string wheels_;
   Eigen::Matrix3d R_body_imu_;
-  geometry::Pose3 T_nav_body_;  ///< the filter's body has the rig's axes, at the IMU's place
+  geometry::Pose3 T_nav_body_;      ///< the filter's body has the rig's axes, at the IMU's place
+  Eigen::Vector3d p_antenna_told_;  ///< of the antenna from the body whose poses are told [m]
   inertial::Navigation navigation_;
+  std::deque<inertial::NavState> at_fixes_;  ///< the last three
   Readings imu_readings_, fixes_, wheel_readings_;
   std::size_t frames_ = 0;
   double milliseconds_ = 0;  ///< since the last frame

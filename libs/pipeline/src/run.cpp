@@ -30,6 +30,7 @@
 #include "traverse/slam/keyframe_file.hpp"
 #include "traverse/slam/slam.hpp"
 
+#include "geodetic_path.hpp"
 #include "reading_count.hpp"
 #include "run_results.hpp"
 #include "waiting_scans.hpp"
@@ -317,7 +318,15 @@ void write_slam(const Estimator& estimator, const RunFolder& folder) {
   slam::write_loops(folder.loops(), slam_map->slam().loops());
   slam::write_keyframes(folder.keyframes(), slam_map->slam().keyframes(),
                         [&](std::size_t k) { return slam_map->optimised(k); });
-  if (slam_map->origin()) mapping::write_map_origin(folder.origin(), *slam_map->origin());
+}
+
+/// Where on earth the path is, if anything tells.
+void write_place(const Estimator& estimator, const RunResults& results, const RunFolder& folder) {
+  const auto slam_map = estimator.slam_map();
+  const auto origin = slam_map ? slam_map->origin() : estimator.map_origin();
+  if (!origin) return;
+  mapping::write_map_origin(folder.origin(), *origin);
+  write_geodetic_path(results.trajectory(), *origin, folder);
 }
 
 RunRecord begin_record(const dataset::Source& source, const Pipeline& pipeline,
@@ -398,6 +407,7 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
     write_results(source, *results, folder, attempt);
     // Without the poses of odometry beside them there was no way to learn from loops.
     if (results->odometry()) attempt([&] { write_slam(estimator, folder); });
+    attempt([&] { write_place(estimator, *results, folder); });
     observer.stage("evaluation");
     attempt([&] { check_reference(source, results->trajectory(), record); });
     attempt([&] { evaluate_run(source, estimator, *results, readings, folder, record); });

@@ -38,10 +38,11 @@ bool remove_end(std::string_view& text, std::string_view end) {
 }  // namespace
 
 std::vector<std::filesystem::path> RunFolder::files() const {
-  return {record(),     trajectory(),   utm_trajectory(), odometry(),     odometry_evaluation(),
-          loops(),      keyframes(),    reference(),      frames(),       map_points(),
-          simple_map(), origin(),       sample_scan(),    worst_frames(), evaluation(),
-          jacobians(),  factor_bench(), report(),         report_json()};
+  return {record(),       trajectory(), utm_trajectory(), odometry(),      odometry_evaluation(),
+          loops(),        keyframes(),  reference(),      frames(),        map_points(),
+          simple_map(),   origin(),     geodetic_path(),  geodetic_line(), sample_scan(),
+          worst_frames(), evaluation(), jacobians(),      factor_bench(),  report(),
+          report_json()};
 }
 
 bool RunFolder::is_picture(std::string_view name) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "traverse/evaluation/bootstrap.hpp"
 #include "traverse/evaluation/relation.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/numbers.hpp"
@@ -85,6 +86,10 @@ std::vector<Metric> make_metrics() {
                                    {"odometry_mme", "Map entropy before loops", "nats"},
                                    {"loop_candidates", "Loop candidates", "", false},
                                    {"loops_accepted", "Loops closed", "", false},
+                                   {"jump_p95_m", "Jump at fixes, 95 %", "m"},
+                                   {"jump_max_m", "Largest jump", "m"},
+                                   {"jumps", "Jumps", ""},
+                                   {"roughness_m", "Roughness", "m"},
                                    {"registered_share", "Registered", "", false, false, true},
                                    {"restarts", "Restarts", ""},
                                    {"frames_used", "Frames used", "", false},
@@ -194,13 +199,36 @@ void take_loops(const pipeline::RunFolder& folder, Values& values) {
 }
 
 /// Of an estimator that tells which directions its scans determine.
-void take_degenerate(const pipeline::RunFolder& folder, Values& values) {
-  if (!std::filesystem::is_regular_file(folder.frames())) return;
-  const auto frames = pipeline::FrameTable::read_csv(folder.frames());
+void take_degenerate(const pipeline::FrameTable& frames, Values& values) {
   if (!frames.has("degenerate_directions")) return;
   const std::vector<double> directions = frames.column("degenerate_directions");
   values["degenerate_frames"] = static_cast<double>(
       std::count_if(directions.begin(), directions.end(), [](double count) { return count > 0; }));
+}
+
+/// Of navigation: how smooth the path is at the fixes, as the report has it.
+void take_jumps(const pipeline::FrameTable& frames, Values& values) {
+  constexpr double kJump_m = 0.05;
+  const std::vector<double> by_gnss = frames.column("by_gnss");
+  const auto told_at_fixes = [&](const char* column) {
+    std::vector<double> told;
+    const std::vector<double> all = frames.column(column);
+    for (std::size_t i = 0; i < std::min(all.size(), by_gnss.size()); ++i) {
+      if (by_gnss[i] != 0 && all[i] >= 0) told.push_back(all[i]);
+    }
+    return told;
+  };
+  const std::vector<double> jumps = told_at_fixes("correction_m");
+  if (!jumps.empty()) {
+    values["jump_p95_m"] = evaluation::figure_of(jumps, evaluation::Figure::kP95);
+    values["jump_max_m"] = *std::max_element(jumps.begin(), jumps.end());
+    values["jumps"] = static_cast<double>(
+        std::count_if(jumps.begin(), jumps.end(), [](double jump) { return jump > kJump_m; }));
+  }
+  const std::vector<double> roughness = told_at_fixes("roughness_m");
+  if (!roughness.empty()) {
+    values["roughness_m"] = evaluation::figure_of(roughness, evaluation::Figure::kRmse);
+  }
 }
 
 }  // namespace
@@ -236,7 +264,11 @@ std::vector<std::pair<std::string, double>> read_metrics(const std::filesystem::
     take_accuracy(read_figures(folder.evaluation()), values);
     take_run(read_figures(folder.record()), values);
     take_loops(folder, values);
-    take_degenerate(folder, values);
+    if (std::filesystem::is_regular_file(folder.frames())) {
+      const auto frames = pipeline::FrameTable::read_csv(folder.frames());
+      take_degenerate(frames, values);
+      take_jumps(frames, values);
+    }
   } catch (const json::exception&) {
     values.clear();  // not files of this program: a run that crashed while it wrote
   } catch (const files::InputError&) {

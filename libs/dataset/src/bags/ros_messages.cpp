@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "traverse/files/numbers.hpp"
+#include "traverse/sensors/gga_quality.hpp"
 
 #include "point_clouds/field_values.hpp"
 
@@ -229,14 +230,17 @@ sensors::GnssFix fix_of_sentence(std::string_view sentence) {
   if (fields.front().size() != 6 || fields.front().substr(3) != "GGA") {
     throw UnusableMessage("a sentence of NMEA that is not GGA");
   }
-  if (fields.size() < kFields || fields[6] == "0" || fields[6].empty()) {
-    throw UnusableMessage("GNSS record without a fix");
+  const auto quality = fields.size() < kFields ? std::nullopt : files::parse_double(fields[6]);
+  if (!quality || *quality == 0) throw UnusableMessage("GNSS record without a fix");
+  if (!sensors::is_gga_fix(static_cast<int>(*quality))) {
+    throw UnusableMessage("GNSS record whose place was not measured (GGA quality 6 to 8)");
   }
   sensors::GnssFix fix;
   fix.latitude_deg = nmea_angle(fields[2], fields[3]);
   fix.longitude_deg = nmea_angle(fields[4], fields[5]);
   const auto above_sea = files::parse_double(fields[9]);
   const auto geoid = files::parse_double(fields[11]);
+  fix.covariance_enu = sensors::covariance_of_gga_quality(static_cast<int>(*quality));
   fix.altitude_m =
       above_sea ? *above_sea + geoid.value_or(0) : std::numeric_limits<double>::quiet_NaN();
   return fix;

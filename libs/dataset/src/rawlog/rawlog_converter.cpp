@@ -16,6 +16,7 @@
 #include "traverse/files/input_error.hpp"
 #include "traverse/mrpt_io/lidar_observations.hpp"
 #include "traverse/mrpt_io/mrpt_values.hpp"
+#include "traverse/sensors/gga_quality.hpp"
 
 namespace traverse::dataset {
 
@@ -98,12 +99,17 @@ const Message* find_message(const mrpt::obs::CObservationGPS& observation) {
 GnssFix gnss_fix(const mrpt::obs::CObservationGPS& observation) {
   GnssFix fix;
   if (const auto* gga = find_message<mrpt::obs::gnss::Message_NMEA_GGA>(observation)) {
-    if (gga->fields.fix_quality == 0)
-      throw mrpt_io::UnusableObservation("GNSS record without a fix");
+    if (!sensors::is_gga_fix(gga->fields.fix_quality)) {
+      throw mrpt_io::UnusableObservation(
+          gga->fields.fix_quality == 0
+              ? "GNSS record without a fix"
+              : "GNSS record whose place was not measured (GGA quality 6 to 8)");
+    }
     fix.latitude_deg = gga->fields.latitude_degrees;
     fix.longitude_deg = gga->fields.longitude_degrees;
     // NMEA: above the mean sea level, and that above the ellipsoid.
     fix.altitude_m = gga->fields.altitude_meters + gga->fields.geoidal_distance;
+    fix.covariance_enu = sensors::covariance_of_gga_quality(gga->fields.fix_quality);
     return fix;
   }
   if (const auto* rmc = find_message<mrpt::obs::gnss::Message_NMEA_RMC>(observation)) {

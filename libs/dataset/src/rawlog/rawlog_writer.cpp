@@ -14,6 +14,7 @@
 #include "traverse/files/input_error.hpp"
 #include "traverse/mrpt_io/gz_stream.hpp"
 #include "traverse/mrpt_io/mrpt_values.hpp"
+#include "traverse/sensors/gga_quality.hpp"
 
 #include "point_clouds/scan_completion.hpp"
 #include "recording/recording_files.hpp"
@@ -112,7 +113,11 @@ mrpt::obs::CObservationGPS to_observation(const GnssFix& fix) {
     observation.setMsg(message);
   } else {
     mrpt::obs::gnss::Message_NMEA_GGA message;
-    message.fields.fix_quality = 1;
+    // 9: none that is defined, where the deviation is not known; 1 would be metres.
+    constexpr std::uint8_t kUndefined = 9;
+    message.fields.fix_quality =
+        fix.covariance_enu ? static_cast<std::uint8_t>(sensors::gga_quality_of(*fix.covariance_enu))
+                           : kUndefined;
     message.fields.latitude_degrees = fix.latitude_deg;
     message.fields.longitude_degrees = fix.longitude_deg;
     message.fields.altitude_meters = fix.altitude_m;

@@ -16,6 +16,8 @@ namespace traverse::inertial {
 
 namespace {
 
+constexpr double kDeadReckoning_s = 10;  // by the IMU alone, to a metre
+
 bool contradicts(const Eigen::Vector3d& difference, const Eigen::Matrix3d& covariance) {
   return !(difference.dot(covariance.ldlt().solve(difference)) <= chi2_bound(3));
 }
@@ -73,7 +75,7 @@ void GnssConstraint::judge_rejected(FixedLagSmoother& smoother, MapFix& fix,
   RejectedFixes with_this = rejected_;
   with_this.add(fix.stamp, frame.gnss_residual_enu, fix.covariance);
   const auto line = with_this.line(patience_s(smoother.newest().v_map.norm()));
-  if (!line) return;
+  if (!line || has_stepped(with_this, *line, smoother)) return;
   fix.covariance = line->of_fix;
   const Eigen::Matrix3d P =
       smoother.covariance().block<3, 3>(NavState::kPosition, NavState::kPosition);
@@ -92,7 +94,6 @@ void GnssConstraint::judge_rejected(FixedLagSmoother& smoother, MapFix& fix,
 /// that jumped together come back together: they are believed when dead reckoning would no longer
 /// be.
 double GnssConstraint::patience_s(double speed_mps) const {
-  constexpr double kDeadReckoning_s = 10;
   constexpr double kUnseen_mps2 = 20;  // twice what tyres hold
   constexpr double kSlip = 2;          // times the speed, of wheels that lock or spin
   const double longest_s = options_.longest_rejection_s;
@@ -101,6 +102,23 @@ double GnssConstraint::patience_s(double speed_mps) const {
   const double by_driving_m = (kSlip * speed_mps + 0.5 * kUnseen_mps2 * seconds) * seconds;
   const bool jumped = rejected_.first_residual().norm() > by_driving_m;
   return jumped ? std::max(longest_s, kDeadReckoning_s) : longest_s;
+}
+
+/// An estimate that goes astray moves away from the fixes, one by one; a receiver that goes over
+/// from one set of ambiguities to another is elsewhere from one fix to the next, and stays as far
+/// off as that. It comes back, or is believed when dead reckoning would no longer be.
+bool GnssConstraint::has_stepped(const RejectedFixes& rejected, const RejectedFixes::Line& line,
+                                 const FixedLagSmoother& smoother) const {
+  constexpr double kAtOnce_s = 1;
+  if (!last_fix_ || geometry::seconds_between(*last_fix_, rejected.first_stamp()) > kAtOnce_s) {
+    return false;
+  }
+  const double seconds = geometry::seconds_between(rejected.first_stamp(), rejected.last_stamp());
+  if (seconds > kDeadReckoning_s) return false;
+  const bool came_at_once = 2 * rejected.first_residual().norm() > line.offset.norm();
+  const Eigen::Matrix3d P_v =
+      smoother.covariance().block<3, 3>(NavState::kVelocity, NavState::kVelocity);
+  return came_at_once && !contradicts(line.slope, P_v + line.of_slope);
 }
 
 /// Gives up of the estimate what the fixes contradict: the place, and the velocity, with the
@@ -127,10 +145,10 @@ void GnssConstraint::begin_again(FixedLagSmoother& smoother, const RejectedFixes
 
 void GnssConstraint::take_heading(FixedLagSmoother& smoother, const MapFix& fix,
                                   NavFrame& frame) const {
-  const double sigma = options_.heading_deg * geometry::kDegree;
+  const double variance = fix.heading_sigma * fix.heading_sigma;
   frame.heading =
       constrain_newest(smoother, HeadingResidual{*fix.heading},
-                       Covariance<HeadingResidual>(sigma * sigma), options_.gate, options_.huber);
+                       Covariance<HeadingResidual>(variance), options_.gate, options_.huber);
 }
 
 /// The six-row pose from a place and a heading, neither of which tells roll and pitch: those are
@@ -139,7 +157,7 @@ void GnssConstraint::take_heading(FixedLagSmoother& smoother, const MapFix& fix,
 void GnssConstraint::take_pose(FixedLagSmoother& smoother, const MapFix& fix,
                                const AntennaFix& antenna, NavFrame& frame) const {
   const NavState& x = smoother.newest();
-  const double heading_sigma = options_.heading_deg * geometry::kDegree;
+  const double heading_sigma = fix.heading_sigma;
   const Covariance<HeadingResidual> R_heading(heading_sigma * heading_sigma);
   const auto judge = [&](const auto& residual, const auto& R) {
     using Model = std::decay_t<decltype(residual)>;
@@ -187,7 +205,7 @@ void GnssConstraint::take_level_pose(FixedLagSmoother& smoother, const MapFix& f
   model.T_map_body_measured.rotation = geometry::exp_so3({0, 0, *fix.heading});
   model.T_map_body_measured.translation =
       fix.p_antenna_map - model.T_map_body_measured.rotation * antenna_body_;
-  const double sigma = options_.heading_deg * geometry::kDegree;
+  const double sigma = fix.heading_sigma;
   Covariance<GnssPoseResidual> R = Covariance<GnssPoseResidual>::Zero();
   R.topLeftCorner<3, 3>() = sigma * sigma * Eigen::Matrix3d::Identity();
   R.bottomRightCorner<3, 3>() = fix.covariance;

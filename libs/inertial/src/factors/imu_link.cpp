@@ -22,6 +22,7 @@ ImuSample interpolated(const ImuSample& before, const ImuSample& after, geometry
 
 ImuLink::ImuLink(const ImuLink& other)
     : noise_(other.noise_),
+      shaking_(other.shaking_),
       imu_(other.imu_ ? std::make_shared<Preintegration>(*other.imu_) : nullptr),
       last_(other.last_),
       forward_mps_(other.forward_mps_),
@@ -52,9 +53,9 @@ ImuLink::Step ImuLink::add(const ImuSample& sample, const NavState& newest,
   step.is_gap = seconds > kGap;
   const int pieces =
       step.is_gap ? static_cast<int>(std::min(std::ceil(seconds / kPiece), kMostPieces)) : 1;
-  for (int k = 0; k < pieces; ++k) {
-    imu_->add(rate, force, seconds / pieces, step.is_gap ? kGapNoise : 1);
-  }
+  Preintegration::NoiseScale noise = shaking_.scale();
+  if (step.is_gap) noise = {kGapNoise * noise.gyro, kGapNoise * noise.accelerometer};
+  for (int k = 0; k < pieces; ++k) imu_->add(rate, force, seconds / pieces, noise);
   const NavState moved = imu_->predict(newest, gravity_map);
   const double forward = (moved.q_map_body.conjugate() * moved.v_map).x();
   // The speed's change within this step alone: solutions in between move the speed itself.

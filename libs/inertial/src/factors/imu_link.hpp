@@ -6,6 +6,7 @@
 #include "traverse/inertial/nav_state.hpp"
 #include "traverse/sensors/imu_sample.hpp"
 
+#include "factors/imu_shaking.hpp"
 #include "factors/preintegration.hpp"
 
 namespace traverse::inertial {
@@ -17,13 +18,16 @@ sensors::ImuSample interpolated(const sensors::ImuSample& before, const sensors:
 /// What the IMU has measured since the newest state, up to its last reading.
 class ImuLink {
  public:
-  explicit ImuLink(const ImuNoise& noise) : noise_(noise) {}
+  explicit ImuLink(const ImuNoise& noise) : noise_(noise), shaking_(noise) {}
   /// A copy has a pre-integration of its own, which samples join.
   ImuLink(const ImuLink& other);
   ImuLink& operator=(const ImuLink&) = delete;
 
   /// Begins at `state`, keeping the last reading.
   void begin(const NavState& state);
+
+  /// A reading as it came, before it or what lies between two of them is integrated.
+  void observe(const sensors::ImuSample& sample) { shaking_.add(sample); }
 
   /// What a step of the IMU did.
   struct Step {
@@ -40,6 +44,9 @@ class ImuLink {
   const std::optional<sensors::ImuSample>& last() const { return last_; }
   void set_last(const std::optional<sensors::ImuSample>& sample) { last_ = sample; }
 
+  /// The largest densities that were used in place of those that are told.
+  std::optional<ImuShaking::Densities> shaking() const { return shaking_.most(); }
+
   /// Predicted, at the last reading.
   const Eigen::Quaterniond& attitude() const { return q_map_body_; }
 
@@ -51,6 +58,7 @@ class ImuLink {
 
  private:
   ImuNoise noise_;
+  ImuShaking shaking_;
   std::shared_ptr<Preintegration> imu_;
   std::optional<sensors::ImuSample> last_;
   double forward_mps_ = 0;  ///< predicted, at the last reading

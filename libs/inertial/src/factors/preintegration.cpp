@@ -19,7 +19,7 @@ Preintegration::Preintegration(const ImuNoise& noise, const Eigen::Vector3d& gyr
     : noise_(noise), gyro_bias_(gyro_bias), accelerometer_bias_(accelerometer_bias) {}
 
 void Preintegration::add(const Eigen::Vector3d& angular_rate, const Eigen::Vector3d& specific_force,
-                         double seconds, double noise_scale) {
+                         double seconds, const NoiseScale& noise_scale) {
   if (!(seconds > 0) || !std::isfinite(seconds)) {
     throw std::invalid_argument(fmt::format(
         "an IMU sample must last more than 0 s to be integrated, this lasts {}", seconds));
@@ -55,9 +55,12 @@ void Preintegration::integrate(const Sample& sample) {
   A.block<3, 3>(6, 0) = -0.5 * dt * dt * R_a;
   A.block<3, 3>(6, 3) = dt * Eigen::Matrix3d::Identity();
   covariance_ = (A * covariance_ * A.transpose()).eval();
-  const double scale = sample.noise_scale * sample.noise_scale * dt;
-  const double gyro = noise_.gyro_density * noise_.gyro_density * scale;
-  const double accelerometer = noise_.accelerometer_density * noise_.accelerometer_density * scale;
+  const auto variance = [dt](double density, double scale) {
+    return density * density * scale * scale * dt;
+  };
+  const double gyro = variance(noise_.gyro_density, sample.noise_scale.gyro);
+  const double accelerometer =
+      variance(noise_.accelerometer_density, sample.noise_scale.accelerometer);
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
   covariance_.block<3, 3>(0, 0) += gyro * J * J.transpose();
   covariance_.block<3, 3>(3, 3) += accelerometer * I;  // R I R' = I

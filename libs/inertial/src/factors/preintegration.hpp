@@ -38,11 +38,20 @@ class Preintegration {
   Preintegration(const ImuNoise& noise, const Eigen::Vector3d& gyro_bias,
                  const Eigen::Vector3d& accelerometer_bias);
 
+  /// By how much noisier than usual readings are: of a gap, many times.
+  struct NoiseScale {
+    double gyro = 1;
+    double accelerometer = 1;
+  };
+
   /// Adds a stretch of `seconds` of constant readings [rad/s], [m/s^2].
-  /// \param noise_scale  by how much noisier than usual the readings are: of a gap, many times
   /// \throws std::invalid_argument unless seconds > 0 and every number is finite.
   void add(const Eigen::Vector3d& angular_rate, const Eigen::Vector3d& specific_force,
-           double seconds, double noise_scale = 1);
+           double seconds, const NoiseScale& noise_scale);
+  void add(const Eigen::Vector3d& angular_rate, const Eigen::Vector3d& specific_force,
+           double seconds) {
+    add(angular_rate, specific_force, seconds, NoiseScale());
+  }
 
   /// Makes one sample two of half the length, so that the covariance has full rank.
   void split_single_sample();
@@ -74,7 +83,7 @@ class Preintegration {
     Eigen::Vector3d angular_rate;
     Eigen::Vector3d specific_force;
     double seconds;
-    double noise_scale;
+    NoiseScale noise_scale;
   };
 
   void integrate(const Sample& sample);

@@ -28,7 +28,6 @@ void FrameQueue::take(const FixedLagSmoother::Solution& solution,
   frame.converged = solution.converged;
   frame.iterations += solution.iterations;
   frame.states = static_cast<int>(smoother.size());
-  frame.inertial = {solution.inertial_chi2, smoother.size() > 1 ? 9 : 0, false};
   const std::size_t first = smoother.size() - waiting_.size();
   for (std::size_t k = 0; k < waiting_.size(); ++k) waiting_[k].state = smoother.state(first + k);
 }

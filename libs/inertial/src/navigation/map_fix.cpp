@@ -71,6 +71,7 @@ MapFix in_map(const sensors::GnssFix& fix, const geodesy::LocalTangentPlane& pla
   if (options.use_heading && fix.heading_deg && std::isfinite(*fix.heading_deg)) {
     result.heading = std::remainder((90 - *fix.heading_deg) * geometry::kDegree - baseline_angle,
                                     2 * std::numbers::pi);
+    result.heading_sigma = options.heading_deg * geometry::kDegree;
   }
   return result;
 }

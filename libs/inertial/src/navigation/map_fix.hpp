@@ -27,6 +27,7 @@ struct MapFix {
   /// receiver goes over from one set of ambiguities to another they step by a carrier's wavelength.
   double step_m = 0;
   std::optional<double> heading;  ///< of the body's x axis from east, counterclockwise [rad]
+  double heading_sigma = 0;       ///< rad
 };
 
 /// Whether a fix tells a place; counts what it lacks.

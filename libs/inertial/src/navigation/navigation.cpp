@@ -8,12 +8,15 @@
 
 #include <fmt/format.h>
 
+#include "traverse/geometry/angle.hpp"
+
 #include "factors/gnss_constraint.hpp"
 #include "factors/imu_link.hpp"
 #include "factors/wheel_constraint.hpp"
 #include "navigation/first_fixes.hpp"
 #include "navigation/fix_scatter.hpp"
 #include "navigation/frame_queue.hpp"
+#include "navigation/heading_scatter.hpp"
 #include "navigation/map_fix.hpp"
 #include "navigation/navigation_start.hpp"
 #include "navigation/outage_schedule.hpp"
@@ -54,6 +57,7 @@ class Navigation::Impl {
       return frames_.take_done();
     }
     if (last && seconds_between(last->stamp, sample.stamp) > options_.longest_gap_s) start_anew();
+    imu_.observe(sample);
     while (!waiting_.empty() && stamp_of(waiting_.front()) <= sample.stamp) {
       const Waiting reading = std::move(waiting_.front());
       waiting_.pop_front();
@@ -117,6 +121,22 @@ class Navigation::Impl {
                              "none, and they are too few to scatter",
                              without_covariance_)});
     }
+    const double told = options_.gnss.heading_deg * geometry::kDegree;
+    const double by_scatter = heading_scatter_.sigma(told);
+    if (by_scatter > told) {
+      facts.push_back({"sigma of headings",
+                       fmt::format("{:.2f} deg: what they scatter by against the gyro, more than "
+                                   "gnss.heading_deg says",
+                                   by_scatter / geometry::kDegree)});
+    }
+    if (const auto shaken = imu_.shaking()) {
+      facts.push_back(
+          {"noise of the IMU",
+           fmt::format("at most {:.2g} rad/s/sqrt(Hz) and {:.2g} m/s^2/sqrt(Hz), where it shakes: "
+                       "what its readings scatter by, more than imu.gyro_density and "
+                       "imu.accelerometer_density say",
+                       shaken->gyro, shaken->accelerometer)});
+    }
     if (failed_at_) {
       facts.push_back(
           {"solver", fmt::format("first failed {:.3f} s after the first IMU reading: the states "
@@ -151,6 +171,7 @@ class Navigation::Impl {
       scatter_.add_motion(step.seconds, step.velocity_change_map);
       outages_.add_distance(step.way_m);
     }
+    heading_scatter_.add(sample);
     imu_.set_last(sample);
     if (!has_started()) start_->add(sample);
   }
@@ -169,6 +190,7 @@ class Navigation::Impl {
     imu_.set_last(std::nullopt);
     last_fix_.reset();
     scatter_.forget_path();
+    heading_scatter_.forget_turn();
     waiting_.clear();
     start_.emplace(options_, mounts_, gravity_);
   }
@@ -258,7 +280,10 @@ class Navigation::Impl {
     }
     make_state(fix.stamp);
     frames_.newest().by_gnss = !is_out;
-    if (!is_out) constrain_by(map_fix);
+    if (!is_out) {
+      frames_.newest().p_antenna_fix_map = map_fix.p_antenna_map;
+      constrain_by(map_fix);
+    }
     if (options_.trigger == Trigger::kGnss) constrain_by_wheels();
     solve();
   }
@@ -283,7 +308,11 @@ class Navigation::Impl {
     make_state(reading.stamp);
     frames_.newest().by_wheels = true;
     constrain_by_wheels();
-    if (is_paired(options_) && last_was_by_gnss_) {
+    // What the newest state does not believe says nothing of the one before; and that is gone where
+    // the estimate began again.
+    const NavFrame& frame = frames_.newest();
+    const bool is_believed = frame.wheels.rows > 0 && !frame.wheels.is_rejected;
+    if (is_paired(options_) && last_was_by_gnss_ && is_believed && smoother_->size() > 1) {
       by_wheels_.constrain_last(*smoother_, wheel_speed_, last_rate_, trust());
     }
     solve();
@@ -296,6 +325,8 @@ class Navigation::Impl {
                                         : Eigen::Vector3d::Zero();
     if (!fix.covariance_enu || !options_.gnss.use_covariance) ++without_covariance_;
     scatter_.add(fix.stamp, map_fix.p_antenna_map, arm_map);
+    if (map_fix.heading) heading_scatter_.add(fix.stamp, *map_fix.heading);
+    map_fix.heading_sigma = heading_scatter_.sigma(options_.gnss.heading_deg * geometry::kDegree);
     if (is_paired(options_)) map_fix.covariance *= kPairedVariance;
     return map_fix;
   }
@@ -340,8 +371,13 @@ class Navigation::Impl {
     by_gnss_.constrain(*smoother_, fix, motion, first_sigma_, frames_.newest(), events);
     if (!frames_.newest().gnss.is_rejected) believed_fix_ = fix.stamp;
     if (ends_outage) report_outage(std::sqrt(P.trace()));
-    if (is_paired(options_) && !last_was_by_gnss_) constrain_last_by(fix);
-    last_fix_ = fix;
+    const bool is_rejected = frames_.newest().gnss.is_rejected;
+    if (is_paired(options_) && !last_was_by_gnss_ && !is_rejected) constrain_last_by(fix);
+    if (is_rejected) {
+      last_fix_.reset();
+    } else {
+      last_fix_ = fix;
+    }
   }
 
   /// The state before, which wheels made, by the line between the last two fixes.
@@ -378,7 +414,14 @@ class Navigation::Impl {
   }
 
   void solve() {
-    frames_.take(smoother_->solve(), *smoother_);
+    NavFrame& frame = frames_.newest();
+    if (smoother_->size() > 1 && frame.inertial.rows == 0) {  // what comes later has less to say
+      frame.inertial = smoother_->innovation_of_newest();
+    }
+    const Eigen::Vector3d p_predicted = smoother_->newest().p_map;
+    const FixedLagSmoother::Solution solution = smoother_->solve();
+    if (!frame.restarted) frame.correction_map += smoother_->newest().p_map - p_predicted;
+    frames_.take(solution, *smoother_);
     imu_.begin(smoother_->newest());
   }
 
@@ -401,6 +444,7 @@ class Navigation::Impl {
   std::optional<MapFix> last_fix_;
   std::optional<Stamp> believed_fix_;
   FixScatter scatter_;
+  HeadingScatter heading_scatter_;
   FirstFixes first_fixes_;
   bool last_was_by_gnss_ = false;                         ///< what made the state before the newest
   Eigen::Vector3d state_rate_ = Eigen::Vector3d::Zero();  ///< at the newest state

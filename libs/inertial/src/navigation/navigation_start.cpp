@@ -154,7 +154,7 @@ std::optional<FirstState> NavigationStart::at_fix(const MapFix& fix) {
 std::optional<NavigationStart::Heading> NavigationStart::antennas_heading() const {
   const TurnedFix& newest = fixes_.back();
   if (!newest.fix.heading) return std::nullopt;
-  const double sigma = gnss_.heading_deg * geometry::kDegree;
+  const double sigma = newest.fix.heading_sigma;
   std::size_t others = 0;
   std::size_t agreeing = 0;
   for (std::size_t k = 0; k + 1 < fixes_.size(); ++k) {

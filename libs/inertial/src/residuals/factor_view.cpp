@@ -74,6 +74,46 @@ void add_random_state(RandomStates& random, std::vector<Eigen::VectorXd>& state)
   state.emplace_back(random.vector(2));
 }
 
+/// Adds the blocks of `x` to `state`.
+void add_state(const NavState& x, std::vector<Eigen::VectorXd>& state) {
+  state.emplace_back(x.q_map_body.coeffs());
+  state.emplace_back(x.p_map);
+  state.emplace_back(x.v_map);
+  state.emplace_back(x.gyro_bias);
+  state.emplace_back(x.accelerometer_bias);
+  state.emplace_back(Eigen::VectorXd::Constant(1, x.wheel_scale));
+  state.emplace_back(x.wheel_turn);
+  state.emplace_back(Eigen::VectorXd::Constant(1, x.gnss_latency));
+  state.emplace_back(x.gnss_bias);
+}
+
+/// Without what makes its samples.
+FactorKind described(std::string name, std::string formula, std::size_t states,
+                     const FactorView& view) {
+  FactorKind result;
+  result.name = std::move(name);
+  result.formula = std::move(formula);
+  result.perturbations = {Perturbation::kRight};
+  for (const int block : view.blocks) {
+    const auto part = static_cast<std::size_t>(block) % kBlockSizes.size();
+    std::string label = kBlockNames[part];
+    if (states == 2) label += block < kStateBlocks ? " i" : " j";
+    result.blocks.push_back({label, kBlockSizes[part], part == 0});
+  }
+  return result;
+}
+
+FactorSample viewed(const WholeFactor& whole, const FactorView& view,
+                    const std::vector<Eigen::VectorXd>& state) {
+  FactorSample sample;
+  sample.analytic = std::make_shared<ViewedCost>(whole.analytic, view, state);
+  sample.automatic = std::make_shared<ViewedCost>(whole.automatic, view, state);
+  for (const int block : view.blocks) {
+    sample.state.push_back(state[static_cast<std::size_t>(block)]);
+  }
+  return sample;
+}
+
 }  // namespace
 
 NavState random_nav_state(RandomStates& random) {
@@ -87,27 +127,24 @@ NavState random_nav_state(RandomStates& random) {
 
 FactorKind viewed_kind(std::string name, std::string formula, int states, const FactorView& view,
                        const std::function<WholeFactor(RandomStates&)>& make) {
-  FactorKind result;
-  result.name = std::move(name);
-  result.formula = std::move(formula);
-  result.perturbations = {Perturbation::kRight};
-  for (const int block : view.blocks) {
-    const auto part = static_cast<std::size_t>(block) % kBlockSizes.size();
-    std::string label = kBlockNames[part];
-    if (states == 2) label += block < kStateBlocks ? " i" : " j";
-    result.blocks.push_back({label, kBlockSizes[part], part == 0});
-  }
+  FactorKind result =
+      described(std::move(name), std::move(formula), static_cast<std::size_t>(states), view);
   result.make = [view, make, states](RandomStates& random, Perturbation) {
     std::vector<Eigen::VectorXd> state;
     for (int s = 0; s < states; ++s) add_random_state(random, state);
-    const WholeFactor whole = make(random);
-    FactorSample sample;
-    sample.analytic = std::make_shared<ViewedCost>(whole.analytic, view, state);
-    sample.automatic = std::make_shared<ViewedCost>(whole.automatic, view, state);
-    for (const int block : view.blocks) {
-      sample.state.push_back(state[static_cast<std::size_t>(block)]);
-    }
-    return sample;
+    return viewed(make(random), view, state);
+  };
+  return result;
+}
+
+FactorKind viewed_kind_at(std::string name, std::string formula,
+                          const std::vector<NavState>& states, const FactorView& view,
+                          const WholeFactor& whole) {
+  FactorKind result = described(std::move(name), std::move(formula), states.size(), view);
+  std::vector<Eigen::VectorXd> blocks;
+  for (const NavState& x : states) add_state(x, blocks);
+  result.make = [view, whole, blocks](RandomStates&, Perturbation) {
+    return viewed(whole, view, blocks);
   };
   return result;
 }

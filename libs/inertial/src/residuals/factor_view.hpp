@@ -58,6 +58,11 @@ optimization::FactorKind viewed_kind(
     std::string name, std::string formula, int states, const FactorView& view,
     const std::function<WholeFactor(optimization::RandomStates&)>& make);
 
+/// The same of one factor at states that are known: make() gives these whatever is drawn.
+optimization::FactorKind viewed_kind_at(std::string name, std::string formula,
+                                        const std::vector<NavState>& states, const FactorView& view,
+                                        const WholeFactor& whole);
+
 /// Turned so little that what two states differ by stays below half a turn, where Log has no
 /// derivative.
 NavState random_nav_state(optimization::RandomStates& random);

@@ -1,6 +1,12 @@
 #include "residuals/inertial.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
 #include "traverse/geometry/so3.hpp"
+#include "traverse/inertial/factor_kinds.hpp"
 
 #include "residuals/factor_view.hpp"
 
@@ -89,30 +95,75 @@ void inertial(const Preintegration& imu, const Eigen::Vector3d& gravity,
       p_measured;
 }
 
+WholeFactor whole_factor(std::shared_ptr<const Preintegration> imu,
+                         const Eigen::Vector3d& gravity_map) {
+  return of_link(InertialResidual{imu, gravity_map},
+                 [imu, gravity_map](const auto& i, const auto& j, auto* r) {
+                   inertial(*imu, gravity_map, i, j, r);
+                 });
+}
+
 WholeFactor inertial_sample(optimization::RandomStates& random) {
   auto imu = std::make_shared<Preintegration>(ImuNoise{}, random.vector(0.02), random.vector(0.1));
   const Eigen::Vector3d rate = random.vector(1);
   const Eigen::Vector3d force = Eigen::Vector3d(0, 0, 9.8) + random.vector(3);
   for (int k = 0; k < 40; ++k) imu->add(rate + random.vector(0.3), force + random.vector(1), 0.01);
-  const Eigen::Vector3d gravity(0, 0, -9.81);
-  return of_link(InertialResidual{imu, gravity},
-                 [=](const auto& i, const auto& j, auto* r) { inertial(*imu, gravity, i, j, r); });
+  return whole_factor(std::move(imu), {0, 0, -9.81});
+}
+
+/// Three rows of the residual and the blocks that they depend on.
+struct Rows3 {
+  const char* name;
+  const char* formula;
+  FactorView view;
+};
+std::vector<Rows3> rows_of_inertial() {
+  using namespace block;
+  return {
+      {InertialResidual::kRotationName,
+       "r = Log(dR(bg)' Ri' Rj)",
+       {{kRotation, kGyroBias, of_j(kRotation)}, 0, 3}},
+      {InertialResidual::kVelocityName,
+       "r = Ri' (vj - vi - g T) - dv(bg, ba)",
+       {{kRotation, kVelocity, kGyroBias, kAccelerometerBias, of_j(kVelocity)}, 3, 3}},
+      {InertialResidual::kPositionName,
+       "r = Ri' (pj - pi - vi T - g T^2 / 2) - dp(bg, ba)",
+       {{kRotation, kPosition, kVelocity, kGyroBias, kAccelerometerBias, of_j(kPosition)}, 6, 3}}};
 }
 
 }  // namespace
 
 std::vector<optimization::FactorKind> InertialResidual::kinds() {
-  using namespace block;
-  return {
-      viewed_kind(kRotationName, "r = Log(dR(bg)' Ri' Rj)", 2,
-                  {{kRotation, kGyroBias, of_j(kRotation)}, 0, 3}, inertial_sample),
-      viewed_kind(kVelocityName, "r = Ri' (vj - vi - g T) - dv(bg, ba)", 2,
-                  {{kRotation, kVelocity, kGyroBias, kAccelerometerBias, of_j(kVelocity)}, 3, 3},
-                  inertial_sample),
-      viewed_kind(
-          kPositionName, "r = Ri' (pj - pi - vi T - g T^2 / 2) - dp(bg, ba)", 2,
-          {{kRotation, kPosition, kVelocity, kGyroBias, kAccelerometerBias, of_j(kPosition)}, 6, 3},
-          inertial_sample)};
+  std::vector<optimization::FactorKind> kinds;
+  for (const Rows3& rows : rows_of_inertial()) {
+    kinds.push_back(viewed_kind(rows.name, rows.formula, 2, rows.view, inertial_sample));
+  }
+  return kinds;
+}
+
+std::vector<optimization::FactorKind> inertial_kinds_between(const NavState& i, const NavState& j,
+                                                             const Eigen::Vector3d& gravity_map) {
+  constexpr double kStep_s = 0.01;
+  const double seconds = geometry::seconds_between(i.stamp, j.stamp);
+  if (!(seconds > 0)) throw std::invalid_argument("the second state must be the later one");
+  const Eigen::Matrix3d Ri = i.rotation();
+  const Eigen::Vector3d rate =
+      geometry::log_so3(Ri.transpose() * j.rotation()) / seconds + i.gyro_bias;
+  const Eigen::Vector3d acceleration_map = (j.v_map - i.v_map) / seconds - gravity_map;
+  const int steps = std::max(2, static_cast<int>(std::lround(seconds / kStep_s)));
+  auto imu = std::make_shared<Preintegration>(ImuNoise{}, i.gyro_bias, i.accelerometer_bias);
+  for (int k = 0; k < steps; ++k) {
+    const Eigen::Vector3d turned = (k + 0.5) / steps * seconds * (rate - i.gyro_bias);
+    const Eigen::Vector3d force =
+        (Ri * geometry::exp_so3(turned)).transpose() * acceleration_map + i.accelerometer_bias;
+    imu->add(rate, force, seconds / steps);
+  }
+  const WholeFactor whole = whole_factor(std::move(imu), gravity_map);
+  std::vector<optimization::FactorKind> kinds;
+  for (const Rows3& rows : rows_of_inertial()) {
+    kinds.push_back(viewed_kind_at(rows.name, rows.formula, {i, j}, rows.view, whole));
+  }
+  return kinds;
 }
 
 }  // namespace traverse::inertial

@@ -217,7 +217,6 @@ FixedLagSmoother::Solution FixedLagSmoother::solve() {
   solution.covariance = covariance_;
   solution.reason = solution.converged ? optimization::Termination::kConverged
                                        : optimization::Termination::kIterationLimit;
-  if (nodes_.size() > 1) solution.inertial_chi2 = link_terms(0).inertial_chi2;
   return solution;
 }
 

@@ -10,6 +10,7 @@
 #include "traverse/inertial/navigation_options.hpp"
 #include "traverse/optimization/termination.hpp"
 
+#include "factors/innovation.hpp"
 #include "factors/preintegration.hpp"
 #include "factors/state_factor.hpp"
 
@@ -53,8 +54,7 @@ class FixedLagSmoother {
     bool converged = false;
     optimization::Termination reason = optimization::Termination::kNotRun;
     int iterations = 0;
-    double cost = 0;           ///< half the sum of squares, robust
-    double inertial_chi2 = 0;  ///< of the oldest link, which has measurements to both sides; 9 rows
+    double cost = 0;  ///< half the sum of squares, robust
     /// Of the newest state, with all its factors, in its tangent (NavState::Part): rotation on the
     /// right [rad, body] first, then position [m], velocity [m/s], ... in the map frame.
     NavState::Matrix covariance = NavState::Matrix::Zero();
@@ -79,6 +79,10 @@ class FixedLagSmoother {
   void add(std::unique_ptr<StateFactor> factor);
   /// Constrains the state before the newest. \pre size() > 1
   void add_to_last(std::unique_ptr<StateFactor> factor);
+
+  /// Of the newest state as it was predicted against all factors that constrain it together: what
+  /// is to be asked between append() and solve(). No rows where nothing constrains it.
+  Innovation innovation_of_newest() const;
 
   /// \throws NotSolvable if the normal equations are not positive definite
   Solution solve();
@@ -132,7 +136,6 @@ class FixedLagSmoother {
     Matrix H_ii, H_ij, H_jj;
     Tangent g_i, g_j;
     double cost = 0;
-    double inertial_chi2 = 0;
   };
 
   Link make_link(std::shared_ptr<Preintegration> imu) const;

@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
+
+#include <Eigen/Cholesky>
 
 #include "residuals/inertial.hpp"
 #include "residuals/prior.hpp"
@@ -72,7 +75,6 @@ FixedLagSmoother::LinkTerms FixedLagSmoother::link_terms(std::size_t k) const {
   terms.H_jj.noalias() = Wj.transpose() * Wj;
   terms.g_i.noalias() = Wi.transpose() * r;
   terms.g_j.noalias() = Wj.transpose() * r;
-  terms.inertial_chi2 = r.squaredNorm();
 
   // The walks: r = w (x_j - a x_i), so that each adds (a w)^2 and w^2 to the diagonals.
   constexpr int kWalks = NavState::kTangent - NavState::kGyroBias;
@@ -92,8 +94,30 @@ FixedLagSmoother::LinkTerms FixedLagSmoother::link_terms(std::size_t k) const {
   terms.H_ij.diagonal().tail<kWalks>() -= squares.cwiseProduct(a);
   terms.g_i.tail<kWalks>() -= squares.cwiseProduct(a).cwiseProduct(d);
   terms.g_j.tail<kWalks>() += squares.cwiseProduct(d);
-  terms.cost = (terms.inertial_chi2 + w.cwiseProduct(d).squaredNorm()) / 2;
+  terms.cost = (r.squaredNorm() + w.cwiseProduct(d).squaredNorm()) / 2;
   return terms;
+}
+
+Innovation FixedLagSmoother::innovation_of_newest() const {
+  const Node& node = nodes_.back();
+  std::vector<std::pair<Rows, RowsJacobian>> parts(node.factors.size());
+  Eigen::Index size = 0;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    node.factors[k]->evaluate(node.x, parts[k].first, &parts[k].second);
+    size += parts[k].first.size();
+  }
+  if (size == 0) return {};
+  Eigen::VectorXd r(size);
+  Eigen::MatrixXd J(size, NavState::kTangent);
+  Eigen::Index row = 0;
+  for (const auto& [part, jacobian] : parts) {
+    r.segment(row, part.size()) = part;
+    J.middleRows(row, part.size()) = jacobian;
+    row += part.size();
+  }
+  // The rows are in standard deviations of what was measured.
+  const Eigen::MatrixXd S = J * covariance_ * J.transpose() + Eigen::MatrixXd::Identity(size, size);
+  return {r.dot(S.ldlt().solve(r)), static_cast<int>(size), false};
 }
 
 double FixedLagSmoother::build(std::vector<BlockRow>& rows) const {

@@ -51,6 +51,31 @@ std::vector<Estimated> bias_axes(const pipeline::FrameTable& frames, const std::
   return axes;
 }
 
+std::vector<double> at_fixes(const pipeline::FrameTable& frames, const std::string& column) {
+  if (!frames.has(column)) return {};
+  std::vector<double> values = frames.column(column);
+  const auto by_gnss = frames.column("by_gnss");
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (by_gnss[i] == 0 || values[i] < 0) values[i] = kNone;
+  }
+  return values;
+}
+
+PlacedFixes placed_fixes(const pipeline::FrameTable& frames) {
+  PlacedFixes fixes;
+  if (!frames.has("fix_east_m")) return fixes;
+  const auto east = frames.column("fix_east_m");
+  const auto north = frames.column("fix_north_m");
+  const auto up = frames.column("fix_up_m");
+  const auto rows = frames.column("gnss_rows");
+  const auto rejected = frames.column("gnss_rejected");
+  for (std::size_t i = 0; i < east.size(); ++i) {
+    if (rows[i] == 0) continue;
+    (rejected[i] != 0 ? fixes.rejected : fixes.taken).emplace_back(east[i], north[i], up[i]);
+  }
+  return fixes;
+}
+
 bool has_any(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "traverse/pipeline/frame_table.hpp"
 
 /// Series of a navigation run that its charts and its pictures need.
@@ -39,6 +41,21 @@ Estimated less_its_end(Estimated one, double factor = 1);
 /// The three axes of a bias, less their ends: "gyro", "rad_s" or "accelerometer", "m_s2".
 std::vector<Estimated> bias_axes(const pipeline::FrameTable& frames, const std::string& sensor,
                                  const std::string& unit);
+
+/// A step of the path at a fix that the prediction misses by more than that is a jump [m]: what a
+/// vehicle that follows its lane by the path would steer after.
+inline constexpr double kJump_m = 0.05;
+
+/// Of frames by fixes what `column` says, "correction_m" or "roughness_m"; NaN elsewhere, and where
+/// it is not told (-1). Estimators that make states at other moments too are alike in these.
+std::vector<double> at_fixes(const pipeline::FrameTable& frames, const std::string& column);
+
+/// Fixes where they put the body, map frame [m], in the order of time.
+struct PlacedFixes {
+  std::vector<Eigen::Vector3d> taken;
+  std::vector<Eigen::Vector3d> rejected;
+};
+PlacedFixes placed_fixes(const pipeline::FrameTable& frames);
 
 bool has_any(const std::vector<double>& values);
 bool is_navigation(const pipeline::FrameTable& frames);

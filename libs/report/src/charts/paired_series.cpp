@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "charts/navigation_series.hpp"
 #include "charts/series.hpp"
 
 namespace traverse::report {
@@ -51,6 +52,17 @@ Series of_frames(const pipeline::FrameTable& frames) {
   return series;
 }
 
+/// By the stamps of the fixes, which runs of one recording share.
+Series of_fixes(const pipeline::FrameTable& frames, const std::string& column) {
+  Series series;
+  const std::vector<double> stamp = frames.column("stamp_s");
+  const std::vector<double> values = at_fixes(frames, column);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isfinite(values[i])) series[std::llround(1e6 * stamp[i])] = values[i];
+  }
+  return series;
+}
+
 }  // namespace
 
 const std::vector<SeriesFigure>& series_figures() {
@@ -60,12 +72,16 @@ const std::vector<SeriesFigure>& series_figures() {
       {"kitti_translation_percent", evaluation::Figure::kMean},
       {"kitti_rotation_deg_per_100m", evaluation::Figure::kMean},
       {"rpe_10_frames_rmse_m", evaluation::Figure::kRmse},
+      {"jump_p95_m", evaluation::Figure::kP95},
+      {"roughness_m", evaluation::Figure::kRmse},
       {"frame_median_ms", evaluation::Figure::kMedian}};
   return figures;
 }
 
 Series series_of(const RunData& run, const std::string& id) {
   if (id == "frame_median_ms") return of_frames(run.frames);
+  if (id == "jump_p95_m") return of_fixes(run.frames, "correction_m");
+  if (id == "roughness_m") return of_fixes(run.frames, "roughness_m");
   if (!run.evaluation.comparison) return {};
   const Comparison& comparison = *run.evaluation.comparison;
   if (id == "ape_rmse_m") return of_ape(comparison, Relation::kTranslation);

@@ -36,6 +36,12 @@ geometry::Trajectory aligned_estimate(const RunData& run) {
   return geometry::Trajectory::stamped(run.estimate.stamps(), to_vector(poses));
 }
 
+Eigen::Vector3d aligned_place(const RunData& run, const Eigen::Vector3d& p_map) {
+  if (!run.evaluation.comparison) return p_map;
+  const evaluation::Alignment& alignment = run.evaluation.comparison->alignment;
+  return alignment.T_reference_estimate * Eigen::Vector3d(alignment.scale * p_map);
+}
+
 std::optional<Eigen::Vector3d> north_of_map(const RunData& run) {
   const auto north = run.record.at("map").find("north");
   if (north == run.record.at("map").end() || north->is_null()) return std::nullopt;

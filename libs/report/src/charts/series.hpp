@@ -25,6 +25,9 @@ std::vector<double> for_each_pose(const RunData& run, const std::vector<double>&
 /// The estimate brought onto the reference as the evaluation did, to be drawn over it.
 geometry::Trajectory aligned_estimate(const RunData& run);
 
+/// A place of the map as aligned_estimate() has it.
+Eigen::Vector3d aligned_place(const RunData& run, const Eigen::Vector3d& p_map);
+
 /// Unit vector to true north in the map frame of the estimate; nothing where it is not known.
 std::optional<Eigen::Vector3d> north_of_map(const RunData& run);
 /// The same in the frame of aligned_estimate().

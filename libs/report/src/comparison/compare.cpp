@@ -17,6 +17,7 @@
 
 #include "charts/series.hpp"
 #include "comparison/comparison.hpp"
+#include "figures/fixes_beside.hpp"
 #include "page/data_uri.hpp"
 #include "run/number_texts.hpp"
 
@@ -84,6 +85,9 @@ std::pair<std::string, std::string> draw_overlay(const std::vector<ComparedRun>&
   for (const ComparedRun& run : runs) ways.push_back(aligned_estimate(run.data));
   std::vector<render::NamedTrajectory> named;
   for (std::size_t k = 0; k < runs.size(); ++k) named.push_back({runs[k].name, &ways[k]});
+  std::vector<const RunData*> all;
+  for (const ComparedRun& run : runs) all.push_back(&run.data);
+  const render::BesideTrajectories beside = fixes_beside(all);
   const RunData& first = runs.front().data;
   const geometry::Trajectory* reference =
       first.reference && first.evaluation.comparison ? &*first.reference : nullptr;
@@ -94,9 +98,10 @@ std::pair<std::string, std::string> draw_overlay(const std::vector<ComparedRun>&
   render::Renderer renderer;
   render::Style style;
   const auto draw = [&] {
-    return data_uri("image/png",
-                    renderer.render(render::trajectory_from_above(named, reference, caption, style))
-                        .encode_png());
+    return data_uri(
+        "image/png",
+        renderer.render(render::trajectory_from_above(named, reference, caption, style, beside))
+            .encode_png());
   };
   std::string light = draw();
   style.theme = render::dark_theme();

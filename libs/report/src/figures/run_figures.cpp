@@ -1,6 +1,7 @@
 #include "figures/run_figures.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -8,6 +9,7 @@
 
 #include "traverse/evaluation/titles.hpp"
 
+#include "charts/navigation_series.hpp"
 #include "charts/series.hpp"
 #include "run/number_texts.hpp"
 
@@ -95,6 +97,38 @@ void add_relative(const Comparison& comparison, std::vector<RunFigure>& figures)
   }
 }
 
+/// How smooth a navigated path is, at the fixes, where it jumps if it does.
+void add_jumps(const RunData& run, std::vector<RunFigure>& figures) {
+  const auto finite = [](std::vector<double> values) {
+    std::erase_if(values, [](double value) { return !std::isfinite(value); });
+    return values;
+  };
+  const std::vector<double> jumps = finite(at_fixes(run.frames, "correction_m"));
+  if (!jumps.empty()) {
+    const auto many =
+        std::count_if(jumps.begin(), jumps.end(), [](double jump) { return jump > kJump_m; });
+    const std::string of = fmt::format("of {} at fixes", plural(jumps.size(), "step"));
+    figures.push_back(
+        figure_of_values("jump_p95_m", evaluation::figure_of(jumps, evaluation::Figure::kP95),
+                         "step of the path less the predicted one, 95th percentile " + of, jumps,
+                         evaluation::Figure::kP95));
+    figures.push_back(figure("jump_max_m", *std::max_element(jumps.begin(), jumps.end()),
+                             "step of the path less the predicted one, the largest " + of,
+                             "one value: its scatter is not known"));
+    figures.push_back(figure("jumps", static_cast<double>(many),
+                             fmt::format("more than {} m off the predicted step, {}", kJump_m, of),
+                             "a count, exact"));
+  }
+  const std::vector<double> roughness = finite(at_fixes(run.frames, "roughness_m"));
+  if (roughness.empty()) return;
+  figures.push_back(figure_of_values(
+      "roughness_m", evaluation::figure_of(roughness, evaluation::Figure::kRmse),
+      fmt::format("second difference of the places at fixes less what the velocities account for, "
+                  "rms of {}",
+                  plural(roughness.size(), "value")),
+      roughness, evaluation::Figure::kRmse));
+}
+
 /// How far off a run was when fixes came again.
 void add_outages(const RunData& run, std::vector<RunFigure>& figures) {
   std::vector<double> errors;
@@ -157,6 +191,11 @@ const std::vector<FigureKind>& figure_kinds() {
        "the same in percent of the reference's path, from 10 m on"},
       {"outage_error_rms_m", "Error after outages", "m",
        "horizontal, to the first fix after each GNSS outage, rms"},
+      {"jump_p95_m", "Jump at fixes, 95 %", "m", "step of the path less the predicted one"},
+      {"jump_max_m", "Largest jump", "m", "the largest of it"},
+      {"jumps", "Jumps", "", "steps that are more than 0.05 m off the predicted ones"},
+      {"roughness_m", "Roughness", "m",
+       "second difference of the path at fixes less what its velocities account for, rms"},
       {"ape_rmse_m", "APE", "m", "absolute pose error, translation, rmse"},
       {"ape_angle_rmse_deg", "APE, angle", "deg", "absolute pose error, rotation, rmse"},
       {"rpe_10_frames_rmse_m", "RPE over 10 frames", "m", "relative pose error, rmse"},
@@ -194,6 +233,7 @@ std::vector<RunFigure> accuracy_figures(const evaluation::Evaluation& evaluation
 std::vector<RunFigure> run_figures(const RunData& run) {
   std::vector<RunFigure> figures = accuracy_figures(run.evaluation);
   add_outages(run, figures);
+  add_jumps(run, figures);
   add_health(run, figures);
   add_cost(run, figures);
   return figures;

@@ -6,6 +6,7 @@
 #include "traverse/render/pictures/trajectory_from_the_side.hpp"
 
 #include "charts/series.hpp"
+#include "figures/fixes_beside.hpp"
 #include "run/number_texts.hpp"
 #include "sections/error_figures.hpp"
 
@@ -32,14 +33,19 @@ void add_trajectory_figures(const RunData& run, FigureMaker& maker) {
       run.reference && run.evaluation.comparison ? &*run.reference : nullptr;
   const std::string against =
       reference != nullptr ? " against the reference (dashed), after alignment" : "";
+  render::BesideTrajectories beside = fixes_beside({&run});
+  beside.north_map = north_of_reference(run);
+  const bool has_fixes = !beside.fixes.empty();
+  const std::string fixes =
+      has_fixes ? ", over the fixes; larger where the path jumps most" : std::string();
   maker.add(
-      "trajectory", "trajectory-above", "Trajectory from above" + against + ".",
+      "trajectory", "trajectory-above", "Trajectory from above" + against + fixes + ".",
       [&](const Style& style) {
         return render::trajectory_from_above(
             named, reference, maker.caption("Trajectory from above", path_statistic(run)), style,
-            north_of_reference(run));
+            beside);
       },
-      "3d");
+      has_fixes ? "" : "3d");
   maker.add("trajectory", "trajectory-side", "Height over the distance travelled" + against + ".",
             [&](const Style& style) {
               return render::trajectory_from_the_side(

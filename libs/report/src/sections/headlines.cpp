@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 
 #include <fmt/format.h>
@@ -14,15 +15,17 @@ namespace traverse::report {
 namespace {
 
 constexpr std::size_t kMostHeadlines = 6;
+constexpr std::size_t kMostNavigationHeadlines = 8;
 
 /// In the order of importance; the first six that the run defines are shown.
 constexpr std::array<std::string_view, 7> kHeadlines{
     "kitti_translation_percent", "ape_rmse_m",      "closing_error_m", "rpe_10_frames_rmse_m",
     "map_entropy_nats",          "frame_median_ms", "frame_p95_ms"};
 /// Of a run that fixes hold: what it is worth is how far it is off, with them and without.
-constexpr std::array<std::string_view, 7> kNavigationHeadlines{
-    "ape_rmse_m",           "outage_error_rms_m", "ape_angle_rmse_deg", "closing_error_m",
-    "rpe_10_frames_rmse_m", "frame_median_ms",    "frame_p95_ms"};
+constexpr std::array<std::string_view, 10> kNavigationHeadlines{
+    "ape_rmse_m",      "outage_error_rms_m", "jump_p95_m",      "jump_max_m",
+    "roughness_m",     "ape_angle_rmse_deg", "closing_error_m", "rpe_10_frames_rmse_m",
+    "frame_median_ms", "frame_p95_ms"};
 
 std::string interval_text(const RunFigure& figure) {
   if (!figure.interval) return figure.no_interval;
@@ -89,9 +92,13 @@ void add_headlines(const RunData& run, const std::vector<RunFigure>& figures,
 
   TemplateData list = TemplateData::list();
   std::size_t shown = 0;
-  for (const std::string_view id : is_navigation(run.frames) ? kNavigationHeadlines : kHeadlines) {
+  const bool of_navigation = is_navigation(run.frames);
+  const std::size_t most = of_navigation ? kMostNavigationHeadlines : kMostHeadlines;
+  const std::span<const std::string_view> ids =
+      of_navigation ? std::span<const std::string_view>(kNavigationHeadlines) : kHeadlines;
+  for (const std::string_view id : ids) {
     const RunFigure* figure = find_figure(figures, id);
-    if (figure == nullptr || shown == kMostHeadlines) continue;
+    if (figure == nullptr || shown == most) continue;
     list.push_back(headline(*figure, budget));
     ++shown;
   }

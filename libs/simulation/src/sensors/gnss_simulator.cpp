@@ -41,6 +41,12 @@ void bind(config::Binder& b, GnssSettings& s) {
   b.number("rate_hz", s.rate_hz, Range::between(0.1, 100), "fixes per second");
   b.flag("dual_antenna", s.dual_antenna, "it gives headings");
   b.number("heading_noise_deg", s.heading_noise_deg, Range::between(0, 90), "standard deviation");
+  b.number("heading_from_mps", s.heading_from_mps, Range::non_negative(),
+           "speed from which on it gives headings");
+  b.number("step_m", s.step_m, Range::non_negative(),
+           "standard deviation of the steps by which positions are off for a few seconds");
+  b.number("steps_every_s", s.steps_every_s, Range::positive(), "mean time between two steps");
+  b.number("step_s", s.step_s, Range::positive(), "mean time that a step lasts");
   b.numbers("outages_s", s.outages_s, "begin and end of each outage in turn, seconds of the drive");
   b.number("latitude_deg", s.latitude_deg, Range::between(-89, 89), "of the map's origin");
   b.number("longitude_deg", s.longitude_deg, Range::between(-180, 180), "of the map's origin");
@@ -96,12 +102,27 @@ Vector3d GnssSimulator::error(std::size_t i, double open_sky, Vector3d& deviatio
   return shape.cwiseProduct(of_white * white + of_slow * slow_ + of_fast * fast_);
 }
 
+/// The step that positions are off by at sample `i`: it comes and goes as a coin says.
+Vector3d GnssSimulator::step(std::size_t i) {
+  constexpr std::uint32_t kOfSteps = 8;
+  if (!(settings_.step_m > 0)) return step_;
+  const CounterNoise::Draw a = noise_.at(i, kOfSteps);
+  const CounterNoise::Draw b = noise_.at(i, kOfSteps + 1);
+  const bool is_off = !step_.isZero();
+  const double mean_s = is_off ? settings_.step_s : settings_.steps_every_s;
+  if (a.uniform_1 > 1 / (mean_s * settings_.rate_hz)) return step_;
+  step_ = is_off
+              ? Vector3d(Vector3d::Zero())
+              : Vector3d(settings_.step_m * Vector3d(b.gaussian_1, b.gaussian_2, 2 * a.gaussian_1));
+  return step_;
+}
+
 std::optional<sensors::GnssFix> GnssSimulator::sample(std::size_t i) {
   const double seconds = static_cast<double>(i) / settings_.rate_hz;
   const MotionState antenna = motion_.state(seconds).at(T_body_antenna_);
   const double open_sky = surroundings_.open_sky(antenna.T_map_body.translation);
   Vector3d deviation;
-  const Vector3d wrong = error(i, open_sky, deviation);  // wanders on during outages
+  const Vector3d wrong = error(i, open_sky, deviation) + step(i);  // wanders on during outages
   if (is_out(seconds) || open_sky < kLeastSky) return std::nullopt;
 
   sensors::GnssFix fix;
@@ -111,7 +132,8 @@ std::optional<sensors::GnssFix> GnssSimulator::sample(std::size_t i) {
   fix.longitude_deg = position.y();
   fix.altitude_m = position.z();
   fix.covariance_enu = deviation.cwiseAbs2().asDiagonal();
-  if (settings_.dual_antenna) {
+  const bool drives = antenna.velocity_map.norm() >= settings_.heading_from_mps;
+  if (settings_.dual_antenna && drives) {
     const Vector3d ahead = antenna.T_map_body.rotation.col(0);
     const double from_north = std::atan2(ahead.x(), ahead.y()) * 180 / std::numbers::pi;
     const double heading = from_north + settings_.heading_noise_deg * noise_.at(i, 6).gaussian_1;

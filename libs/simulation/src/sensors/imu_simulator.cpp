@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 namespace {
 
 /// Which numbers of the noise are for what; samples use 0 .. 5 with their own number.
-enum Use : std::uint32_t { kWhite = 0, kWalk = 3, kConstant = 6 };
+enum Use : std::uint32_t { kWhite = 0, kWalk = 3, kConstant = 6, kShaking = 9 };
 
 /// Three pairs of independent numbers.
 struct Pair {
@@ -46,6 +46,10 @@ void bind(config::Binder& b, ImuSettings& s) {
   b.number("scale_error", s.scale_error, Range::between(0, 0.1), "standard deviation, each axis");
   b.number("misalignment_deg", s.misalignment_deg, Range::between(0, 10),
            "standard deviation, each pair of axes");
+  b.number("shaking_mps2", s.shaking_mps2, Range::non_negative(),
+           "standard deviation of each reading while the vehicle drives, m/s^2");
+  b.number("shaking_rads", s.shaking_rads, Range::non_negative(),
+           "standard deviation of each reading while the vehicle drives, rad/s");
 }
 
 ImuSimulator::ImuSimulator(const ImuSettings& settings, const VehicleMotion& motion,
@@ -93,6 +97,14 @@ sensors::ImuSample ImuSimulator::sample(std::size_t i) {
   sample.specific_force = calibration_.accel_matrix * sample.specific_force +
                           calibration_.accel_bias + accel_walk_ +
                           settings_.accel_noise * per_sample * white.accel;
+  const bool shakes = settings_.shaking_mps2 > 0 || settings_.shaking_rads > 0;
+  constexpr double kDrives_mps = 0.05;
+  if (shakes &&
+      motion_.state(static_cast<double>(i) / settings_.rate_hz).velocity_map.norm() > kDrives_mps) {
+    const Pair shaking = draw(noise_, i, kShaking);
+    sample.angular_rate += settings_.shaking_rads * shaking.gyro;
+    sample.specific_force += settings_.shaking_mps2 * shaking.accel;
+  }
   gyro_walk_ += settings_.gyro_bias_walk / per_sample * step.gyro;
   accel_walk_ += settings_.accel_bias_walk / per_sample * step.accel;
   return sample;

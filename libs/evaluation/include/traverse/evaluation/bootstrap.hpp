@@ -8,7 +8,7 @@
 namespace traverse::evaluation {
 
 /// What is computed of a series of values.
-enum class Figure { kMean, kRmse, kMedian };
+enum class Figure { kMean, kRmse, kMedian, kP95 };
 
 /// \throws std::invalid_argument if there are no values.
 double figure_of(std::span<const double> values, Figure figure);

@@ -26,7 +26,7 @@ struct Mounts {
 };
 
 /// The chi-square of what a factor kind said of a state before it was taken, with the rows it has;
-/// of the inertial factor, of the oldest link of the window after the solution.
+/// of the inertial factor, of the state that the IMU predicted against all that was then taken.
 struct Innovation {
   double chi2 = 0;
   int rows = 0;  ///< 0: there was none
@@ -43,6 +43,11 @@ struct NavFrame {
   bool restarted = false;  ///< what was known was given up, and navigation began again here
   Innovation gnss, heading, wheels, standing, inertial;
   Eigen::Vector3d gnss_residual_enu = Eigen::Vector3d::Zero();  ///< predicted - measured, m
+  /// Where the fix puts the antenna, m; of a frame whose gnss has rows.
+  Eigen::Vector3d p_antenna_fix_map = Eigen::Vector3d::Zero();
+  /// By how much the solution moved the state from where the state before led to, m: of a path that
+  /// is given out as it is found, its jumps.
+  Eigen::Vector3d correction_map = Eigen::Vector3d::Zero();
   double outage_error_m = 0;     ///< horizontal, at the first fix after one; else 0
   double outage_distance_m = 0;  ///< travelled in it
   int iterations = 0;

@@ -26,6 +26,9 @@ struct RunFolder {
   std::filesystem::path simple_map() const { return path / "map.simplemap"; }
   /// Where on earth the map is, if its frame is ENU.
   std::filesystem::path origin() const { return path / "origin.json"; }
+  /// The path by latitude, longitude and height, if its frame is ENU: a table, and a line for maps.
+  std::filesystem::path geodetic_path() const { return path / "path.csv"; }
+  std::filesystem::path geodetic_line() const { return path / "path.kml"; }
   /// One scan of the run with the feature class of each point.
   std::filesystem::path sample_scan() const { return path / "scan.ply"; }
   /// How a frame of each worst segment was registered: its scan and its matches.

@@ -28,8 +28,13 @@ struct GnssSettings {
   double rate_hz = 5;
   bool dual_antenna = true;        ///< gives headings
   double heading_noise_deg = 0.2;  ///< standard deviation
-  std::vector<double> outages_s;   ///< from and to by turns, seconds of the drive
-  double latitude_deg = 48.1;      ///< of the map's origin
+  double heading_from_mps = 0;     ///< headings are given from this speed on
+  /// RTK now and then loses its ambiguities for a few seconds: it is then a decimetre or two off.
+  double step_m = 0;              ///< standard deviation of each axis; twice that in height
+  double steps_every_s = 20;      ///< on average
+  double step_s = 2;              ///< how long, on average
+  std::vector<double> outages_s;  ///< from and to by turns, seconds of the drive
+  double latitude_deg = 48.1;     ///< of the map's origin
   double longitude_deg = 11.6;
   double altitude_m = 520;
 };
@@ -53,6 +58,7 @@ class GnssSimulator {
 
  private:
   bool is_out(double seconds) const;
+  Eigen::Vector3d step(std::size_t i);
   Eigen::Vector3d error(std::size_t i, double open_sky, Eigen::Vector3d& deviation);
 
   struct Plane;
@@ -64,6 +70,7 @@ class GnssSimulator {
   std::unique_ptr<Plane> plane_;
   Eigen::Vector3d slow_ = Eigen::Vector3d::Zero();  ///< wandering errors in units of deviations
   Eigen::Vector3d fast_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d step_ = Eigen::Vector3d::Zero();  ///< m; zero while ambiguities are right
 };
 
 }  // namespace traverse::simulation

@@ -28,6 +28,10 @@ struct ImuSettings {
   double accel_bias = 0.03;        ///< standard deviation at switch-on, m/s^2
   double scale_error = 5e-4;       ///< standard deviation, each axis
   double misalignment_deg = 0.05;  ///< standard deviation, each axis against each other
+  /// What a small vehicle on stiff wheels shakes it by while it drives, standard deviations of each
+  /// reading: beyond half the rate, so white.
+  double shaking_mps2 = 0;
+  double shaking_rads = 0;
 };
 void bind(config::Binder& binder, ImuSettings& settings);
 
