@@ -72,6 +72,8 @@ void bind(Binder& b, StatedValues& v) {
   });
   b.group("wheels", "wheel odometry",
           [&](Binder& wheels) { wheels.text("topic", v.topics.wheels, "of a bag"); });
+  b.group("laser", "2-D laser",
+          [&](Binder& laser) { laser.text("topic", v.topics.laser, "of a bag"); });
   b.group("vehicle", "mounting of the sensors, and wheel odometry",
           [&](Binder& vehicle) { bind(vehicle, v.vehicle); });
   b.group("log", "format of a text log", [&](Binder& log) { bind(log, v.log); });

@@ -30,6 +30,7 @@ struct TopicStatements {
   std::string imu;
   std::string gnss;
   std::string wheels;
+  std::string laser;  ///< a 2-D one
   std::string reference;
 };
 
