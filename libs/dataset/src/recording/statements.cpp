@@ -44,6 +44,7 @@ void bind(Binder& b, StatedValues& v) {
   b.flag("motion_compensated", v.motion_compensated,
          "the points of a scan are already deskewed to its stamp");
   b.text("sensor", v.sensor, "lidar profile: a name in share/sensors, or a file");
+  b.text("lidars", v.lidars, "labels of lidars whose scans are used as one's, commas between");
   b.group("reference", "reference trajectory", [&](Binder& reference) {
     reference.text("file", v.reference_file, "relative to the recording's folder");
     reference.choice("format", v.reference_format, kTrajectoryFormatNames, "of the file");
