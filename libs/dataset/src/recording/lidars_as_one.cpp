@@ -183,10 +183,10 @@ class LidarsAsOne final : public Source {
     info_.expected_scans = 0;
     std::vector<MountedSensor> sensors;
     for (const MountedSensor& sensor : info_.rig.sensors) {
-      if (sensor.label == first.label) {
-        sensors.push_back(sensor);
-        sensors.back().label = names;
-        sensors.back().lidar = profile;
+      if (sensor.label == first.label) {  // before other lidars, which nobody asked for
+        sensors.insert(sensors.begin(), sensor);
+        sensors.front().label = names;
+        sensors.front().lidar = profile;
       } else if (part_of(sensor.label) == nullptr) {
         sensors.push_back(sensor);
       }
