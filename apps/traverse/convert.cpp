@@ -19,6 +19,8 @@ namespace traverse::app {
 namespace {
 
 namespace fs = std::filesystem;
+using dataset::BagFormat;
+using dataset::BagPacking;
 using dataset::RecordingWriter;
 using dataset::ScanFolderFormat;
 using dataset::Source;
@@ -26,8 +28,9 @@ using dataset::Source;
 struct ConvertOptions {
   RecordingOptions recording;
   std::string destination;
-  std::string format = "pcd";
+  std::string format;
   std::string lidar;
+  std::string packing = "none";
   int gzip_level = 1;
   bool force = false;
   std::size_t first = 0;
@@ -36,20 +39,38 @@ struct ConvertOptions {
 
 constexpr const char* kExamples = R"(Examples:
   traverse convert 2011_09_26_drive_0001_sync drive.rawlog
-  traverse convert drive.rawlog scans                          a folder of PCD files
+  traverse convert drive.rawlog drive.bag                      a ROS 1 bag
+  traverse convert drive.rawlog drive.mcap --packing zstd      messages of ROS 2
+  traverse convert drive.rawlog scans                          a folder of PCD files and tables
   traverse convert drive.rawlog sequence --format kitti
   traverse convert drive slice.rawlog --first 100 --last 199 --gzip 6
 
   traverse convert drive.rawlog log.txt                        IMU, wheels and GNSS as text
 
-A destination that ends in .rawlog is written as a rawlog, with its facts in X.traverse.yaml, its
-reference trajectory in X.reference.tum and its camera in X.calib.txt beside it. One that ends in .txt
-becomes a text log with lines IMU, ODOM and GNSS, and its mountings in X.traverse.yaml. Any other
-destination becomes a folder, which must not be there yet or be empty. Files of an earlier conversion
-are replaced when the new ones are complete; files that this program did not write are refused.)";
+The ending of the destination tells the format, or --format does. X.rawlog, X.bag (ROS 1) and X.mcap
+(ROS 2) take all sensors, with their facts in X.traverse.yaml, the reference trajectory in
+X.reference.tum and the camera in X.calib.txt beside them. X.txt becomes a text log with lines IMU, ODOM
+and GNSS, and its mountings in X.traverse.yaml. Any other destination becomes a folder of one lidar's
+scans with imu.csv, gnss.csv and wheels.csv, which must not be there yet or be empty. What a format has
+no place for, or rounds, is counted and told. Files of an earlier conversion are replaced when the new
+ones are complete; files that this program did not write are refused.)";
 
-bool is_log(const fs::path& destination) { return destination.extension() == ".txt"; }
-bool is_rawlog(const fs::path& destination) { return destination.extension() == ".rawlog"; }
+std::string format_of(const ConvertOptions& options) {
+  if (!options.format.empty()) return options.format;
+  const fs::path ending = fs::path(options.destination).extension();
+  for (const char* format : {"rawlog", "bag", "mcap"}) {
+    if (ending == std::string(".") + format) return format;
+  }
+  return ending == ".txt" ? "log" : "pcd";
+}
+
+dataset::BagOptions bag_options(BagFormat format, const ConvertOptions& options,
+                                const dataset::FilesThere& there) {
+  const BagPacking packing = options.packing == "lz4"    ? BagPacking::kLz4
+                             : options.packing == "zstd" ? BagPacking::kZstd
+                                                         : BagPacking::kNone;
+  return {format, packing, there};
+}
 
 /// The lidar whose scans are counted and, into a folder, written.
 std::string choose_lidar(const Source& source, const std::string& wanted) {
@@ -68,22 +89,28 @@ std::string choose_lidar(const Source& source, const std::string& wanted) {
 std::unique_ptr<RecordingWriter> open_writer(const Source& source, const ConvertOptions& options,
                                              const std::string& lidar) {
   const dataset::FilesThere there{options.force, {}};
-  if (is_rawlog(options.destination)) {
+  const std::string format = format_of(options);
+  if (format == "rawlog") {
     return dataset::write_rawlog(options.destination, source.info(), source.reference(),
                                  {options.gzip_level, there});
   }
-  if (is_log(options.destination)) {
+  if (format == "bag" || format == "mcap") {
+    const BagFormat bag = format == "bag" ? BagFormat::kRos1 : BagFormat::kMcap;
+    return dataset::write_bag(options.destination, source.info(), source.reference(),
+                              bag_options(bag, options, there));
+  }
+  if (format == "log") {
     return dataset::write_navigation_log(options.destination, source.info(), source.reference(),
                                          there);
   }
   if (lidar.empty()) {
     throw std::runtime_error("a folder holds lidar scans, and the recording has no lidar");
   }
-  const ScanFolderFormat format = options.format == "kitti" ? ScanFolderFormat::kKitti
-                                  : options.format == "ply" ? ScanFolderFormat::kPly
-                                                            : ScanFolderFormat::kPcd;
+  const ScanFolderFormat scans = format == "kitti" ? ScanFolderFormat::kKitti
+                                 : format == "ply" ? ScanFolderFormat::kPly
+                                                   : ScanFolderFormat::kPcd;
   return dataset::write_scan_folder(options.destination, source.info(), source.reference(), lidar,
-                                    format);
+                                    scans);
 }
 
 void refuse_to_overwrite_the_source(const fs::path& source, const fs::path& destination) {
@@ -130,14 +157,23 @@ void run_convert(const ConvertOptions& options) {
 void add_convert(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "convert",
-      "Writes a recording as an MRPT rawlog, a folder of scans or a text log, nothing lost that "
-      "the format can hold");
+      "Writes a recording as an MRPT rawlog, a ROS 1 bag, MCAP, a folder of scans or a text log, "
+      "nothing lost that the format can hold");
   auto options = std::make_shared<ConvertOptions>();
   add_recording_options(*command, options->recording, "SRC");
-  command->add_option("DST", options->destination, "X.rawlog, X.txt, or a folder")->required();
-  command->add_option("--format", options->format, "of a folder: pcd (default), ply or kitti")
-      ->check(CLI::IsMember({"pcd", "ply", "kitti"}))
+  command->add_option("DST", options->destination, "X.rawlog, X.bag, X.mcap, X.txt, or a folder")
+      ->required();
+  command
+      ->add_option(
+          "--format", options->format,
+          "rawlog, bag, mcap or log, if the name does not tell; of a folder pcd (default), "
+          "ply or kitti")
+      ->check(CLI::IsMember({"rawlog", "bag", "mcap", "log", "pcd", "ply", "kitti"}))
       ->option_text("NAME");
+  command
+      ->add_option("--packing", options->packing, "of a bag's chunks: none, lz4 or, of MCAP, zstd")
+      ->check(CLI::IsMember({"none", "lz4", "zstd"}))
+      ->capture_default_str();
   command->add_option("--gzip", options->gzip_level, "compression of a rawlog, 0 (none) to 9")
       ->check(CLI::Range(0, 9))
       ->capture_default_str();
@@ -149,9 +185,9 @@ void add_convert(CLI::App& app) {
   command->add_option("--last", options->last, "last frame, included")
       ->check(CLI::NonNegativeNumber)
       ->option_text("N");
-  command->add_flag(
-      "--force", options->force,
-      "replace files at and beside X.rawlog or X.txt that this program did not write");
+  command->add_flag("--force", options->force,
+                    "replace files at and beside X.rawlog, X.bag, X.mcap or X.txt that this "
+                    "program did not write");
   command->footer(kExamples);
   command->callback([options] { run_convert(*options); });
 }

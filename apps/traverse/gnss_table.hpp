@@ -6,7 +6,7 @@
 
 namespace traverse::app {
 
-/// Fixes as a CSV file with what a rawlog has no place for: headings and standard deviations.
+/// Fixes as a CSV file, with headings and standard deviations.
 class GnssTable {
  public:
   void add(const sensors::GnssFix& fix);

@@ -68,7 +68,7 @@ constexpr const char* kExamples = R"(Examples:
 
 Beside X.rawlog stand X.traverse.yaml (what holds of it), X.reference.tum (the exact poses),
 X.rig.yaml (the calibration), X.world.yaml (every setting, to be simulated again) and X.gnss.csv
-(headings and deviations, which rawlogs have no place for). A KITTI folder holds the same files
+(the fixes with their headings and deviations as a table). A KITTI folder holds the same files
 without X., and poses.txt and calib.txt of a camera 0 that looks ahead from the lidar's place; of the
 other sensors it has gnss.csv only. A text log (X.txt) holds IMU, wheels and fixes with headings. The same seed gives the same bytes. Files of an earlier simulation
 are replaced when the new ones are complete; a KITTI folder must be new or empty.)";

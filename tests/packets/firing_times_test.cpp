@@ -1,11 +1,13 @@
 // Packets of a sensor that flies towards a wall, in each model's own firing order, put together to
 // sweeps and deskewed. At 300 m/s a microsecond is 0.3 mm.
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,7 @@
 
 #include "traverse/packets/packet_sweeps.hpp"
 #include "traverse/packets/velodyne.hpp"
+#include "traverse/sensors/lidar_profile.hpp"
 
 #include "hesai.hpp"
 #include "ouster.hpp"
@@ -137,24 +140,26 @@ Packets velodyne_packets(const VelodyneOrder& order) {
   return packets;
 }
 
+std::vector<VelodyneOrder> velodyne_orders() {
+  return {{VelodyneModel::kVlp16, 0x22, 1, 110.592, 0.002,
+           [](std::size_t k) {
+             return 55.296 * static_cast<double>(k / 16) + 2.304 * static_cast<double>(k % 16);
+           }},
+          {VelodyneModel::kVlp16HiRes, 0x24, 1, 110.592, 0.002,
+           [](std::size_t k) {
+             return 55.296 * static_cast<double>(k / 16) + 2.304 * static_cast<double>(k % 16);
+           }},
+          {VelodyneModel::kVlp32c, 0x28, 1, 55.296, 0.004,
+           [](std::size_t k) { return 2.304 * static_cast<double>(k / 2); }},
+          {VelodyneModel::kHdl32e, 0x21, 1, 46.08, 0.002,
+           [](std::size_t k) { return 1.152 * static_cast<double>(k); }},
+          {VelodyneModel::kVls128, 0xA1, 4, 53.3, 0.004, [](std::size_t k) {
+             return -8.7 + 2.665 * static_cast<double>(k / 8) + (k >= 64 ? 2.665 : 0);
+           }}};
+}
+
 TEST(FiringTimes, OfVelodynesTakeTheMotionOutOfTheSweep) {
-  const std::vector<VelodyneOrder> orders{
-      {VelodyneModel::kVlp16, 0x22, 1, 110.592, 0.002,
-       [](std::size_t k) {
-         return 55.296 * static_cast<double>(k / 16) + 2.304 * static_cast<double>(k % 16);
-       }},
-      {VelodyneModel::kVlp16HiRes, 0x24, 1, 110.592, 0.002,
-       [](std::size_t k) {
-         return 55.296 * static_cast<double>(k / 16) + 2.304 * static_cast<double>(k % 16);
-       }},
-      {VelodyneModel::kVlp32c, 0x28, 1, 55.296, 0.004,
-       [](std::size_t k) { return 2.304 * static_cast<double>(k / 2); }},
-      {VelodyneModel::kHdl32e, 0x21, 1, 46.08, 0.002,
-       [](std::size_t k) { return 1.152 * static_cast<double>(k); }},
-      {VelodyneModel::kVls128, 0xA1, 4, 53.3, 0.004, [](std::size_t k) {
-         return -8.7 + 2.665 * static_cast<double>(k / 8) + (k >= 64 ? 2.665 : 0);
-       }}};
-  for (const VelodyneOrder& order : orders) {
+  for (const VelodyneOrder& order : velodyne_orders()) {
     SCOPED_TRACE(std::string(name_of(order.model)));
     const Packets packets = velodyne_packets(order);
     ASSERT_EQ(velodyne_model(VelodynePacket(packets[0].first.data(), kVelodynePacketBytes)),
@@ -221,7 +226,7 @@ Packets hesai_packets(const HesaiOrder& order) {
   return packets;
 }
 
-TEST(FiringTimes, OfHesaisTakeTheMotionOutOfTheSweep) {
+std::vector<HesaiOrder> hesai_orders() {
   const auto header12 = [](int major, int lasers, int blocks, int flags) {
     return std::vector<std::uint8_t>{0xEE,
                                      0xFF,
@@ -236,32 +241,34 @@ TEST(FiringTimes, OfHesaisTakeTheMotionOutOfTheSweep) {
                                      1,
                                      static_cast<std::uint8_t>(flags)};
   };
-  const std::vector<HesaiOrder> orders{
-      {HesaiModel::kPandar40p, 40, 10, {}, 4, 3, 0, 22, 14, 16, 10, 0, -28.58, 55.56, true},
-      {HesaiModel::kPandar64,
-       64,
-       6,
-       {0xEE, 0xFF, 64, 6, 0, 4, 0, 0},
-       2,
-       3,
-       0,
-       22,
-       14,
-       16,
-       10,
-       4,
-       -42.58,
-       55.56,
-       true},
-      {HesaiModel::kXt16, 16, 8, header12(6, 16, 8, 1), 2, 4, 0, 24, 10, 13, 19, 4, 5.632, 50,
-       true},
-      {HesaiModel::kXt32, 32, 8, header12(6, 32, 8, 1), 2, 4, 0, 24, 10, 13, 19, 4, 5.632, 50,
-       true},
-      {HesaiModel::kQt64, 64, 4, header12(3, 64, 4, 1), 2, 4, 0, 24, 16, 18, 12, 4, 25.71,
-       500.0 / 3, false},
-      {HesaiModel::kPandar128, 128, 2, header12(1, 128, 2, 5), 2, 3, 4 + 17, 26, 12, 15, 21, 30,
-       3.148, 55.556, true}};
-  for (const HesaiOrder& order : orders) {
+  return {{HesaiModel::kPandar40p, 40, 10, {}, 4, 3, 0, 22, 14, 16, 10, 0, -28.58, 55.56, true},
+          {HesaiModel::kPandar64,
+           64,
+           6,
+           {0xEE, 0xFF, 64, 6, 0, 4, 0, 0},
+           2,
+           3,
+           0,
+           22,
+           14,
+           16,
+           10,
+           4,
+           -42.58,
+           55.56,
+           true},
+          {HesaiModel::kXt16, 16, 8, header12(6, 16, 8, 1), 2, 4, 0, 24, 10, 13, 19, 4, 5.632, 50,
+           true},
+          {HesaiModel::kXt32, 32, 8, header12(6, 32, 8, 1), 2, 4, 0, 24, 10, 13, 19, 4, 5.632, 50,
+           true},
+          {HesaiModel::kQt64, 64, 4, header12(3, 64, 4, 1), 2, 4, 0, 24, 16, 18, 12, 4, 25.71,
+           500.0 / 3, false},
+          {HesaiModel::kPandar128, 128, 2, header12(1, 128, 2, 5), 2, 3, 4 + 17, 26, 12, 15, 21, 30,
+           3.148, 55.556, true}};
+}
+
+TEST(FiringTimes, OfHesaisTakeTheMotionOutOfTheSweep) {
+  for (const HesaiOrder& order : hesai_orders()) {
     SCOPED_TRACE(std::string(name_of(order.model)));
     const Packets packets = hesai_packets(order);
     ASSERT_EQ(hesai_model(packets[0].first), order.model) << packets[0].first.size();
@@ -349,6 +356,145 @@ TEST(FiringTimes, OfOustersTakeTheMotionOutOfTheSweep) {
     expect_on_wall(deskewed(std::make_unique<OusterDecoder>(metadata), ouster_packets(metadata)),
                    is_low ? 0.005 : 0.001);
   }
+}
+
+sensors::LidarProfile profile_of(const std::string& name) {
+  return sensors::load_lidar_profile(std::string(TRAVERSE_SHARE_DIR) + "/sensors/" + name +
+                                     ".yaml");
+}
+
+/// Beams by elevation, the lowest first: models do not agree in which ring is the first.
+std::vector<std::size_t> by_elevation(const std::vector<double>& elevations_deg) {
+  std::vector<std::size_t> order(elevations_deg.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return elevations_deg[a] < elevations_deg[b];
+  });
+  return order;
+}
+
+/// Each point that the decoder makes lies where the profile's beam points when that fires: what
+/// remains of its azimuth after the turn of the head until then and the beam's offset is the same
+/// for all beams, as is the moment of the firing's start modulo the period.
+void expect_profile_fits(const sensors::LidarProfile& profile,
+                         std::unique_ptr<PacketDecoder> decoder, const Packets& packets,
+                         const std::vector<double>& elevations_deg, double turned_zero_deg) {
+  const std::size_t beams = elevations_deg.size();
+  ASSERT_EQ(profile.elevations_deg.size(), beams);
+  std::vector<std::size_t> in_profile(beams);
+  const auto of_packets = by_elevation(elevations_deg);
+  const auto of_profile = by_elevation(profile.elevations_deg);
+  for (std::size_t i = 0; i < beams; ++i) in_profile[of_packets[i]] = of_profile[i];
+
+  double elevation_off = 0;
+  double azimuth_off = 0;
+  double time_off_us = 0;
+  std::size_t points = 0;
+  std::optional<double> start_us;
+  const PacketSweeps::Sink sink = [&](Sweep&& sweep) {
+    const std::int64_t stamp_ns = sweep.scan.stamp.nanoseconds - kBegin_ns;
+    for (std::size_t i = 0; i < sweep.scan.size(); ++i) {
+      const std::size_t beam = in_profile[sweep.scan.ring[i]];
+      const double t =
+          static_cast<double>(stamp_ns) * 1e-9 + static_cast<double>(sweep.scan.time[i]);
+      const double across = std::hypot(sweep.scan.x[i], sweep.scan.y[i]);
+      elevation_off =
+          std::max(elevation_off, std::abs(std::atan2(sweep.scan.z[i], across) / kPerDegree -
+                                           profile.elevations_deg[beam]));
+      const auto& firing = profile.firing;
+      const double offset =
+          firing.azimuth_offsets_deg.empty() ? 0 : firing.azimuth_offsets_deg[beam];
+      const double azimuth = std::atan2(sweep.scan.y[i], sweep.scan.x[i]) / kPerDegree;
+      azimuth_off = std::max(
+          azimuth_off,
+          std::abs(std::remainder(azimuth + kTurnRate_deg * t - offset - turned_zero_deg, 360)));
+      const double after_us = firing.times_us.empty() ? 0 : firing.times_us[beam];
+      // Packets are a whole number of firings long and their stamps whole microseconds.
+      const double begin_us = t * 1e6 - after_us;
+      if (!start_us) start_us = begin_us;
+      time_off_us = std::max(
+          time_off_us, std::abs(std::remainder(begin_us - *start_us, profile.firing.period_us)));
+      ++points;
+    }
+  };
+  PacketSweeps sweeps(std::move(decoder), "lidar", 180);
+  for (const auto& [bytes, t] : packets) {
+    sweeps.add(bytes, {kBegin_ns + std::llround(t * 1e9)}, sink);
+  }
+  sweeps.finish(sink);
+  EXPECT_GT(points, 5000U);
+  EXPECT_LT(elevation_off, 0.002) << "degrees, which are told to a thousandth";
+  EXPECT_LT(azimuth_off, 0.02) << "degrees, of which packets tell hundredths";
+  EXPECT_LT(time_off_us, 1.1) << "of which packets tell whole ones";
+}
+
+TEST(FiringTimes, ProfilesToSimulateFireAsThePacketsTell) {
+  const std::vector<std::string> velodynes{"vlp16", "", "vlp32c", "hdl32e", "vls128"};
+  const auto orders = velodyne_orders();
+  ASSERT_EQ(orders.size(), velodynes.size());
+  for (std::size_t i = 0; i < orders.size(); ++i) {
+    if (velodynes[i].empty()) continue;  // of the Puck Hi-Res there is none
+    SCOPED_TRACE(velodynes[i]);
+    const auto lasers = velodyne_lasers(orders[i].model);
+    std::vector<double> elevations_deg;
+    for (const VelodyneLaser& laser : lasers)
+      elevations_deg.push_back(laser.elevation / kPerDegree);
+    expect_profile_fits(profile_of(velodynes[i]),
+                        std::make_unique<VelodyneDecoder>(orders[i].model, lasers),
+                        velodyne_packets(orders[i]), elevations_deg, 0);
+  }
+  const std::vector<std::string> hesais{"pandar40p", "pandar64", "xt16",
+                                        "xt32",      "qt64",     "pandar128"};
+  const auto hesai = hesai_orders();
+  ASSERT_EQ(hesai.size(), hesais.size());
+  for (std::size_t i = 0; i < hesai.size(); ++i) {
+    SCOPED_TRACE(hesais[i]);
+    const auto lasers = hesai_lasers(hesai[i].model);
+    std::vector<double> elevations_deg;
+    for (const HesaiLaser& laser : lasers) elevations_deg.push_back(laser.elevation_deg);
+    expect_profile_fits(profile_of(hesais[i]),
+                        std::make_unique<HesaiDecoder>(hesai[i].model, lasers),
+                        hesai_packets(hesai[i]), elevations_deg, 90);
+  }
+}
+
+/// The sign of an Ouster's azimuths: a profile's offsets are counterclockwise, its metadata's not.
+TEST(FiringTimes, OffsetsOfAnOusterAreThoseOfItsMetadataMirrored) {
+  const sensors::LidarProfile profile = profile_of("os1_64");
+  OusterMetadata metadata = made_ouster(OusterProfile::kSingle);
+  metadata.origin_to_beam_mm = metadata.beam_height_mm = 0;  // what profiles leave out
+  metadata.altitude_deg = profile.elevations_deg;
+  for (std::size_t row = 0; row < 64; ++row) {
+    metadata.azimuth_deg[row] = -profile.firing.azimuth_offsets_deg[row];
+  }
+  const std::vector<std::uint8_t> one_range = [&] {
+    std::vector<std::uint8_t> bytes(ouster_packet_bytes(metadata), 0);
+    bytes[0] = 1;
+    for (std::size_t c = 0; c < 16; ++c) {
+      std::uint8_t* column = bytes.data() + 32 + c * (12 + 64 * 12);
+      const auto ns = static_cast<std::int64_t>(static_cast<double>(c) * 0.1e9 / 1024);
+      std::memcpy(column, &ns, 8);
+      put16(column + 8, static_cast<std::uint32_t>(c));
+      put16(column + 10, 1);
+      for (std::size_t row = 0; row < 64; ++row) put16(column + 12 + row * 12, 10'000);
+    }
+    return bytes;
+  }();
+  OusterDecoder decoder(metadata);
+  PacketOutline outline;
+  ASSERT_EQ(decoder.outline(one_range, outline), PacketKind::kData);
+  sensors::LidarScan scan;
+  decoder.append(one_range, outline, 0, outline.groups, 0, scan);
+  ASSERT_EQ(scan.size(), 16U * 64U);
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    // The first column looks behind; the head turns clockwise.
+    const double expected = 180 - kTurnRate_deg * static_cast<double>(scan.time[i]) +
+                            profile.firing.azimuth_offsets_deg[scan.ring[i]];
+    const double azimuth = std::atan2(scan.y[i], scan.x[i]) / kPerDegree;
+    EXPECT_LT(std::abs(std::remainder(azimuth - expected, 360)), 1e-3) << i;
+  }
+  EXPECT_NEAR(profile_of("os1_128").firing.azimuth_offsets_deg[0], -4.25, 0.01);
+  EXPECT_NEAR(profile_of("os1_128").elevations_deg[0], 21.476, 0.001);
 }
 
 }  // namespace

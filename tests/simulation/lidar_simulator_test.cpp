@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -127,6 +129,38 @@ TEST(LidarSimulator, EachPointHasTheAngleAndTheTimeOfItsBeam) {
     EXPECT_NEAR(std::remainder(azimuth - expected, 2 * std::numbers::pi), 0, 1e-4);
   }
   EXPECT_GT(latest, 0.099F);
+}
+
+TEST(LidarSimulator, ALidarThatStampsAtTheEndTellsTimesBeforeItsStamp) {
+  const Town& town = Town::instance();
+  const sensors::LidarProfile profile = profile_of("rs16");
+  ASSERT_EQ(profile.stamp_fraction, 1);
+  const LidarSimulator lidar = lidar_in(town, profile);
+  const sensors::LidarScan scan = lidar.scan(sweep_in_corner(lidar, town.motion));
+  const auto [first, last] = std::minmax_element(scan.time.begin(), scan.time.end());
+  EXPECT_GE(*first, -0.1001F);
+  EXPECT_LT(*first, -0.09F);
+  EXPECT_LT(*last, 1e-4F);
+  EXPECT_GT(*last, -0.01F);
+  const auto moment = [&](std::size_t i) { return scan.stamp.seconds() + scan.time[i]; };
+  std::size_t outliers = 0;
+  EXPECT_NEAR(rms_off_surface(town, scan, moment, outliers), profile.noise.range_m, 0.001);
+  EXPECT_LT(outliers, scan.size() / 500);
+}
+
+TEST(LidarSimulator, EveryInstalledProfileThatTellsItsFiringCanBeSimulated) {
+  const Town& town = Town::instance();
+  std::size_t count = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(TRAVERSE_SHARE_DIR) + "/sensors")) {
+    const sensors::LidarProfile profile = sensors::load_lidar_profile(entry.path());
+    EXPECT_EQ(profile.elevations_deg.size(), static_cast<std::size_t>(profile.rings))
+        << entry.path();
+    if (profile.firing.period_us == 0) continue;
+    EXPECT_NO_THROW(lidar_in(town, profile)) << entry.path();
+    ++count;
+  }
+  EXPECT_GE(count, 22U);
 }
 
 TEST(LidarSimulator, SkyGivesNoPointsAndTheRestIsWithinReach) {

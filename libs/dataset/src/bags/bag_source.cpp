@@ -17,6 +17,7 @@
 
 #include "bags/bag_files.hpp"
 #include "bags/bag_mounting.hpp"
+#include "bags/companion_topics.hpp"
 #include "bags/frame_tree.hpp"
 #include "bags/packet_topics.hpp"
 #include "bags/ros_messages.hpp"
@@ -54,6 +55,7 @@ struct BagBookmark : Bookmark {
   std::shared_ptr<const bags::Position> position;
   ArrivalQueue queue;
   StatedMeasurements stated;
+  CompanionReadings beside;
 
   explicit BagBookmark(StatedMeasurements stated_now) : stated(std::move(stated_now)) {}
 };
@@ -102,6 +104,10 @@ class BagSource : public Source {
   void rewind() override {
     std::vector<std::size_t> channels;
     for (const auto& [index, label] : labels_) channels.push_back(topics_[index].channel);
+    for (const auto& beside : {chosen_.headings, chosen_.pulses}) {
+      if (beside) channels.push_back(topics_[*beside].channel);
+    }
+    beside_ = {};
     container_->begin(channels);
     stated_ = {statements_->imu, statements_->gnss};
     lidars_ = packets::PacketLidars(ouster_ ? std::optional(ouster_->metadata) : std::nullopt,
@@ -116,6 +122,7 @@ class BagSource : public Source {
     auto here = std::make_shared<BagBookmark>(stated_);
     here->position = container_->position();
     here->queue = queue_;
+    here->beside = beside_;
     return here;
   }
 
@@ -124,6 +131,7 @@ class BagSource : public Source {
     container_->return_to(*there.position);
     stated_ = there.stated;
     queue_ = there.queue;
+    beside_ = there.beside;
   }
 
  private:
@@ -137,7 +145,7 @@ class BagSource : public Source {
 
   /// A run of nothing is refused by what there is.
   void refuse_nothing() const {
-    if (chosen_.lidar || chosen_.imu || chosen_.gnss || chosen_.wheels) return;
+    if (chosen_.lidar || chosen_.imu || chosen_.gnss || chosen_.wheels || chosen_.laser) return;
     std::string found;
     for (const TopicInfo& topic : info_.topics) {
       if (topic.use == "transforms") continue;
@@ -185,6 +193,7 @@ class BagSource : public Source {
     add(chosen_.imu, SensorKind::kImu);
     add(chosen_.gnss, SensorKind::kGnss);
     add(chosen_.wheels, SensorKind::kWheels);
+    add(chosen_.laser, SensorKind::kPlanarLaser);
   }
 
   /// Says what the pulses of wheels are whose angles are known.
@@ -275,7 +284,9 @@ class BagSource : public Source {
     }
     profile_ = choose_profile(statements_, options.share_folder, from_data);
     fields_.needs_rings = profile_.profile.ring_source == sensors::RingSource::kData;
-    if (info_.motion_compensated || profile_.profile.time_source != sensors::TimeSource::kData) {
+    // Points that are moved already need no times; they are kept where somebody says what they are.
+    const bool is_of_no_use = info_.motion_compensated && !statements_.states("lidar.time_unit");
+    if (is_of_no_use || profile_.profile.time_source != sensors::TimeSource::kData) {
       fields_.time.reset();
     }
   }
@@ -334,12 +345,18 @@ class BagSource : public Source {
     const auto known = std::find_if(labels_.begin(), labels_.end(), [&](const auto& label) {
       return topics_[label.first].channel == message->channel;
     });
-    if (known == labels_.end()) return;
-    const PeekedTopic& topic = topics_[known->first];
+    const PeekedTopic* found =
+        known == labels_.end() ? companion(message->channel) : &topics_[known->first];
+    if (found == nullptr) return;
+    const PeekedTopic& topic = *found;
     const auto place = [&] {
       return fmt::format("{}, log time {}", topic.topic, to_text(Stamp{message->log_time_ns}));
     };
     try {
+      if (known == labels_.end()) {
+        hear_companion(topic, *message, place());
+        return;
+      }
       if (holds_packets(topic)) {
         add_packets(topic, *message, place());
       } else if (auto measurement = measurement_of(topic, known->second, *message)) {
@@ -353,6 +370,27 @@ class BagSource : public Source {
     } catch (const InputError& error) {  // of a cloud whose fields are others than before
       queue_.skipped().add(fmt::format("expected {}, found {}", error.expected(), error.found()),
                            place());
+    }
+  }
+
+  const PeekedTopic* companion(std::size_t channel) const {
+    for (const auto& beside : {chosen_.headings, chosen_.pulses}) {
+      if (beside && topics_[*beside].channel == channel) return &topics_[*beside];
+    }
+    return nullptr;
+  }
+
+  /// Keeps what a message beside that of a sensor tells until this comes.
+  void hear_companion(const PeekedTopic& topic, const bags::Message& message,
+                      const std::string& place) {
+    const bags::MessageValue value = topic.reader->read(message.bytes);
+    const Stamp stamp = header_stamp(value).value_or(Stamp{message.log_time_ns});
+    if (topic.kind == TopicKind::kHeading) {
+      if (beside_.heading_deg) queue_.skipped().add("heading without a fix of its stamp behind it", place);
+      beside_.heading_deg = {stamp, heading_deg_of(value)};
+    } else {
+      if (beside_.pulses) queue_.skipped().add("pulses without odometry of their stamp behind them", place);
+      beside_.pulses = {stamp, pulses_of(value)};
     }
   }
 
@@ -415,7 +453,9 @@ class BagSource : public Source {
         return sample;
       }
       case TopicKind::kGnss: {
+        const std::optional<double> heading_deg = take_of(beside_.heading_deg, stamp);
         sensors::GnssFix fix = gnss_fix_of(topic.type, value);
+        if (heading_deg) fix.heading_deg = heading_deg;
         fix.stamp = stamp;
         fix.sensor = label;
         stated_.apply(fix);
@@ -424,7 +464,9 @@ class BagSource : public Source {
       }
       case TopicKind::kOdometry:
       case TopicKind::kTwist: {
+        const auto pulses = take_of(beside_.pulses, stamp);
         sensors::WheelOdometry odometry = wheel_odometry_of(topic.kind, value);
+        odometry.ticks = pulses;
         odometry.stamp = stamp;
         odometry.sensor = label;
         return odometry;
@@ -434,6 +476,12 @@ class BagSource : public Source {
         odometry.stamp = stamp;
         odometry.sensor = label;
         return odometry;
+      }
+      case TopicKind::kPlanar: {
+        sensors::PlanarScan scan = planar_scan_of(value);
+        scan.stamp = stamp;
+        scan.sensor = label;
+        return std::make_shared<const sensors::PlanarScan>(std::move(scan));
       }
       default:
         return std::nullopt;
@@ -457,6 +505,7 @@ class BagSource : public Source {
   packets::PacketLidars lidars_;
   PacketTally tally_;
   ArrivalQueue queue_;
+  CompanionReadings beside_;
 };
 
 }  // namespace

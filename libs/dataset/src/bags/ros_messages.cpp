@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "traverse/bags/message_writer.hpp"
 #include "traverse/files/numbers.hpp"
 #include "traverse/sensors/gga_quality.hpp"
 
@@ -22,7 +23,7 @@ using geometry::Stamp;
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, TopicKind>, 25> kTypes{{
+constexpr std::array<std::pair<std::string_view, TopicKind>, 28> kTypes{{
     {"sensor_msgs/PointCloud2", TopicKind::kCloud},
     {"livox_ros_driver/CustomMsg", TopicKind::kCloud},
     {"livox_ros_driver2/CustomMsg", TopicKind::kCloud},
@@ -48,12 +49,14 @@ constexpr std::array<std::pair<std::string_view, TopicKind>, 25> kTypes{{
     {"geometry_msgs/PoseWithCovarianceStamped", TopicKind::kPose},
     {"tf2_msgs/TFMessage", TopicKind::kTransforms},
     {"tf/tfMessage", TopicKind::kTransforms},
+    {"sensor_msgs/LaserScan", TopicKind::kPlanar},
+    {bags::kGnssHeadingType, TopicKind::kHeading},
+    {bags::kWheelPulsesType, TopicKind::kPulses},
 }};
 
 constexpr std::string_view kPlanar =
     "a laser that scans one plane: a trajectory in space needs a lidar with several rings";
-constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kUnusedTypes{{
-    {"sensor_msgs/LaserScan", kPlanar},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kUnusedTypes{{
     {"sensor_msgs/MultiEchoLaserScan", kPlanar},
     {"sensor_msgs/PointCloud",
      "the cloud that PointCloud2 replaced: point_cloud_converter of ROS makes one of the other"},
@@ -306,13 +309,57 @@ sensors::GnssFix gnss_fix_of(std::string_view type, const MessageValue& message)
 
 sensors::WheelOdometry wheel_odometry_of(TopicKind kind, const MessageValue& message) {
   sensors::WheelOdometry odometry;
-  if (kind == TopicKind::kOdometry) odometry.T_odom_body = pose_of(message);
+  if (kind == TopicKind::kOdometry && !is_unknown(message["pose"], "covariance")) {
+    odometry.T_odom_body = pose_of(message);
+  }
   const MessageValue& outer = message["twist"];
   const MessageValue* inner = outer.find("twist");
+  if (inner != nullptr && is_unknown(outer, "covariance")) return odometry;
   const MessageValue& twist = inner == nullptr ? outer : *inner;
   odometry.velocity = {twist["linear"]["x"].number(), twist["linear"]["y"].number(),
                        twist["angular"]["z"].number()};
   return odometry;
+}
+
+sensors::PlanarScan planar_scan_of(const MessageValue& message) {
+  const auto float_of = [&](std::string_view name) {
+    return static_cast<float>(message[name].number());
+  };
+  const bags::NumberColumn ranges = message["ranges"].numbers();
+  const PlanarAngles angles = planar_angles(float_of("angle_min"), float_of("angle_max"),
+                                            float_of("angle_increment"), ranges.count);
+  sensors::PlanarScan scan;
+  scan.first_azimuth = angles.first;
+  scan.azimuth_step = angles.step;
+  scan.max_range_m = message["range_max"].number();
+  const double least = message["range_min"].number();
+  if (!std::isfinite(angles.first) || !std::isfinite(angles.step) || ranges.count == 0) {
+    throw UnusableMessage("2-D scan without ranges or angles");
+  }
+  scan.ranges_m.reserve(ranges.count);
+  for (std::size_t i = 0; i < ranges.count; ++i) {
+    const double range = ranges[i];
+    const bool is_return = std::isfinite(range) && range >= least && range <= scan.max_range_m;
+    scan.ranges_m.push_back(is_return ? static_cast<float>(range)
+                                      : std::numeric_limits<float>::quiet_NaN());
+  }
+  return scan;
+}
+
+double heading_deg_of(const MessageValue& message) { return message["heading_deg"].number(); }
+
+sensors::WheelOdometry::Ticks pulses_of(const MessageValue& message) {
+  return {message["left"].integer(), message["right"].integer()};
+}
+
+PlanarAngles planar_angles(float angle_min, float angle_max, float increment, std::size_t beams) {
+  const PlanarAngles told{angle_min, increment};
+  if (beams < 2) return told;
+  const double step = (double{angle_max} - double{angle_min}) / static_cast<double>(beams - 1);
+  constexpr double kRounded = 1e-3;  // some drivers tell another last angle than that of a beam
+  return std::abs(step - told.step) <= kRounded * std::abs(told.step)
+             ? PlanarAngles{angle_min, step}
+             : told;
 }
 
 Pose3 pose_of(const MessageValue& message) {

@@ -11,6 +11,7 @@
 #include "traverse/geometry/stamp.hpp"
 #include "traverse/sensors/gnss_fix.hpp"
 #include "traverse/sensors/imu_sample.hpp"
+#include "traverse/sensors/planar_scan.hpp"
 #include "traverse/sensors/wheel_odometry.hpp"
 
 #include "point_clouds/point_columns.hpp"
@@ -28,6 +29,9 @@ enum class TopicKind {
   kTwist,     ///< velocities of a vehicle
   kJoints,    ///< angles of joints, which may be a vehicle's wheels
   kPose,      ///< poses without velocities
+  kPlanar,    ///< of a 2-D laser
+  kHeading,   ///< of a receiver, beside its fixes
+  kPulses,    ///< of wheels, beside their odometry
   kTransforms,
   kOther,
 };
@@ -60,6 +64,20 @@ sensors::ImuSample imu_sample_of(const bags::MessageValue& message);
 sensors::GnssFix gnss_fix_of(std::string_view type, const bags::MessageValue& message);
 /// Of Odometry, or of a stamped twist.
 sensors::WheelOdometry wheel_odometry_of(TopicKind kind, const bags::MessageValue& message);
+/// Of a LaserScan.
+sensors::PlanarScan planar_scan_of(const bags::MessageValue& message);
+/// Of traverse_msgs/GnssHeading, clockwise from north, and of traverse_msgs/WheelPulses.
+double heading_deg_of(const bags::MessageValue& message);
+sensors::WheelOdometry::Ticks pulses_of(const bags::MessageValue& message);
+
+/// The azimuths of a LaserScan's beams. They are told as the first and the last, which the step
+/// between them divides with the digits of a double.
+struct PlanarAngles {
+  double first = 0;
+  double step = 0;
+};
+PlanarAngles planar_angles(float angle_min, float angle_max, float increment, std::size_t beams);
+
 /// T_frame_child of Odometry, PoseStamped or PoseWithCovarianceStamped.
 geometry::Pose3 pose_of(const bags::MessageValue& message);
 /// Calls `use` with parent, child, T_parent_child and stamp of each transform.

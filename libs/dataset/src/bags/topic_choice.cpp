@@ -11,6 +11,7 @@
 
 #include "traverse/files/input_error.hpp"
 
+#include "bags/companion_topics.hpp"
 #include "point_clouds/point_fields.hpp"
 #include "point_clouds/point_names.hpp"
 
@@ -69,6 +70,9 @@ void look_at(PeekedTopic& topic, const bags::MessageValue& message,
       break;
     case TopicKind::kJoints:
       look_at_joints(topic, message, stated);
+      break;
+    case TopicKind::kPlanar:
+      planar_scan_of(message);
       break;
     default:
       break;
@@ -266,6 +270,7 @@ std::string stated_topic(const Statements& statements, std::string_view key) {
   if (key == "imu.topic") return statements->topics.imu;
   if (key == "gnss.topic") return statements->topics.gnss;
   if (key == "wheels.topic") return statements->topics.wheels;
+  if (key == "laser.topic") return statements->topics.laser;
   return statements->topics.reference;
 }
 
@@ -331,6 +336,22 @@ std::optional<std::size_t> choose(const SensorOfBag& sensor, const std::vector<P
     }
   }
   return best;
+}
+
+/// The topic beside that of a sensor which tells more of it.
+std::optional<std::size_t> companion_of(const std::optional<std::size_t>& sensor,
+                                        std::string_view suffix, TopicKind kind,
+                                        const std::vector<PeekedTopic>& topics,
+                                        RecordingInfo& info) {
+  if (!sensor) return std::nullopt;
+  const std::string name = topics[*sensor].topic + std::string(suffix);
+  for (std::size_t i = 0; i < topics.size(); ++i) {
+    if (topics[i].topic != name || topics[i].kind != kind || !topics[i].reader) continue;
+    info.topics[i].use = info.topics[*sensor].use;
+    info.topics[i].why = "beside " + topics[*sensor].topic;
+    return i;
+  }
+  return std::nullopt;
 }
 
 std::string not_seen(const PeekedTopic& topic) {
@@ -425,6 +446,11 @@ ChosenTopics choose_topics(const std::vector<PeekedTopic>& topics, const FrameTr
        },
        told_count},
       topics, statements, info);
+  chosen.laser =
+      choose({"laser.topic", "2-D laser", {TopicKind::kPlanar}, not_seen, by_count, told_count},
+             topics, statements, info);
+  chosen.headings = companion_of(chosen.gnss, kHeadingOfTopic, TopicKind::kHeading, topics, info);
+  chosen.pulses = companion_of(chosen.wheels, kPulsesOfTopic, TopicKind::kPulses, topics, info);
   chosen.reference = choose({"reference.topic",
                              "reference",
                              {TopicKind::kPose, TopicKind::kOdometry, TopicKind::kTransforms},

@@ -46,6 +46,9 @@ struct ChosenTopics {
   std::optional<std::size_t> imu;
   std::optional<std::size_t> gnss;
   std::optional<std::size_t> wheels;
+  std::optional<std::size_t> laser;     ///< a 2-D one
+  std::optional<std::size_t> headings;  ///< of the receiver, see companion_topics.hpp
+  std::optional<std::size_t> pulses;    ///< of the wheels
   std::optional<std::size_t> reference;
 };
 

@@ -65,7 +65,7 @@ class CsvRecording {
     }
     read_rows("csv.gyro", csv_.gyro, 3, 3, gyro_);
     read_rows("csv.accelerometer", csv_.accelerometer, 3, 3, accelerometer_);
-    read_rows("csv.gnss", csv_.gnss, 3, 4, gnss_);
+    read_rows("csv.gnss", csv_.gnss, 3, 7, gnss_);
     read_rows("csv.wheels", csv_.wheels, 1, 8, wheels_);
     read_rows("csv.reference", csv_.reference, 7, 7, reference_);
     settle();
@@ -105,7 +105,13 @@ class CsvRecording {
       fix.latitude_deg = values[0];
       fix.longitude_deg = values[1];
       fix.altitude_m = values[2];
-      if (values.size() > 3) fix.heading_deg = values[3];
+      if (values.size() > 3 && !std::isnan(values[3])) fix.heading_deg = values[3];
+      if (values.size() == 7) {
+        const Eigen::Vector3d sigmas_enu(values[4], values[5], values[6]);
+        if (sigmas_enu.minCoeff() > 0) {  // none of them is NaN then
+          fix.covariance_enu = Eigen::Matrix3d(sigmas_enu.cwiseAbs2().asDiagonal());
+        }
+      }
       stated_.apply(fix);
       if (std::abs(fix.latitude_deg) > 90 || std::abs(fix.longitude_deg) > 360) {
         records.skip("GNSS line with no such place", fixes.place(i));
@@ -178,8 +184,9 @@ class CsvRecording {
     std::optional<double> time_unit_s;
     if (statements_.states("csv.time_unit_s")) time_unit_s = csv_.time_unit_s;
     std::vector<Fact> told;
+    const std::size_t required = key == "csv.gnss" ? least : count;
     rows = read_csv_rows(statements_.find_file(key + ".file", stated.file), stated, time_unit_s,
-                         records, told);
+                         required, records, told);
     add_new(std::move(told));
   }
 

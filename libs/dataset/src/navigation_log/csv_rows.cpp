@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -145,8 +146,8 @@ std::vector<std::string_view> listed_columns(std::string_view columns) {
 }
 
 CsvRows read_csv_rows(const std::filesystem::path& file, const CsvColumns& stated,
-                      std::optional<double> time_unit_s, ListedRecords& records,
-                      std::vector<Fact>& facts) {
+                      std::optional<double> time_unit_s, std::size_t required,
+                      ListedRecords& records, std::vector<Fact>& facts) {
   LineReader reader(file);
   const auto header = read_header(reader, stated.time);
   if (!header) throw reader.error("a header line", "an empty file");
@@ -183,7 +184,12 @@ CsvRows read_csv_rows(const std::filesystem::path& file, const CsvColumns& state
     if (cells.size() != header->size())
       fault = "CSV line with another number of cells than its header";
     for (std::size_t k = 0; k < columns.size() && fault.empty(); ++k) {
-      const auto value = files::parse_double(cells[columns[k]]);
+      const std::string_view cell = cells[columns[k]];
+      if (k > required && without_blanks(cell).empty()) {
+        values.push_back(std::numeric_limits<double>::quiet_NaN());
+        continue;
+      }
+      const auto value = files::parse_double(cell);
       if (!value || !std::isfinite(*value)) fault = "CSV line with a cell that is no finite number";
       if (fault.empty() && k == 0) {
         const double seconds = *value * unit_s;
@@ -194,7 +200,8 @@ CsvRows read_csv_rows(const std::filesystem::path& file, const CsvColumns& state
             out_of_range.first = cells[columns[k]];
           }
         }
-        stamp = Stamp::from_seconds(seconds);
+        const auto exact = unit_s == 1 ? geometry::parse_stamp_seconds(cell) : std::nullopt;
+        stamp = exact.value_or(Stamp::from_seconds(seconds));
       }
       if (fault.empty() && k > 0) values.push_back(*value);
     }

@@ -73,11 +73,12 @@ std::vector<std::string_view> listed_columns(std::string_view columns);
 /// first line, or the first comment line that holds the column of the time. Columns are found by
 /// their names with or without '#' and unit.
 /// \param time_unit_s seconds that a 1 in the time means; nothing: as the header says, else 1. What
-/// the header says goes into `facts`.
+/// the header says goes into `facts`. Times in seconds are exact to the nanosecond.
+/// \param required so many columns must hold numbers; an empty cell of the others is NaN
 /// \throws files::InputError if a column is missing, or most times are out of range
 CsvRows read_csv_rows(const std::filesystem::path& file, const CsvColumns& stated,
-                      std::optional<double> time_unit_s, ListedRecords& records,
-                      std::vector<Fact>& facts);
+                      std::optional<double> time_unit_s, std::size_t required,
+                      ListedRecords& records, std::vector<Fact>& facts);
 
 /// The statements of a file in the form of EuRoC's imu0/data.csv, by its header; nothing for
 /// another file.

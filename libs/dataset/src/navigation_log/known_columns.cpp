@@ -115,7 +115,11 @@ bool take_gnss(const fs::path& folder, const fs::path& file, KnownTables& tables
   const auto longitude = header.find({"lon", "lng", "longitude", "longitude_deg", "lon_deg"});
   const auto altitude = header.find({"alt", "altitude", "altitude_m", "alt_m", "height"});
   if (!time || !latitude || !longitude || !altitude) return false;
-  const std::string columns = fmt::format("{},{},{}", *latitude, *longitude, *altitude);
+  std::string columns = fmt::format("{},{},{}", *latitude, *longitude, *altitude);
+  const auto heading = header.find({"heading_deg"});
+  const auto sigmas = header.find_three({{"east_sigma_m", "north_sigma_m", "up_sigma_m"}});
+  if (heading) columns += "," + *heading;
+  if (heading && sigmas) columns += "," + *sigmas;
   tables.csv.gnss = {file.generic_string(), *time, columns, 0};
   return true;
 }

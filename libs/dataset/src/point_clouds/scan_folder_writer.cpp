@@ -10,6 +10,7 @@
 #include "kitti/kitti_bin.hpp"
 #include "point_clouds/cloud_scan.hpp"
 #include "point_clouds/scan_completion.hpp"
+#include "point_clouds/sensor_tables.hpp"
 #include "recording/recording_files.hpp"
 #include "recording/sidecar.hpp"
 
@@ -32,9 +33,12 @@ class ScanFolderWriter : public RecordingWriter {
                                                   : folder_.temporary_path()),
         label_(lidar.label),
         profile_(lidar.lidar.value_or(sensors::LidarProfile())),
-        format_(format) {
+        format_(format),
+        rig_(info.rig),
+        T_lidar_body_(lidar.T_body_sensor.inverse()),
+        tables_(info.rig, left_out_) {
     fs::create_directories(scans_);
-    const geometry::Pose3 T_lidar_body = lidar.T_body_sensor.inverse();
+    const geometry::Pose3& T_lidar_body = T_lidar_body_;
     sidecar_.name = info.name;
     sidecar_.motion_compensated = info.motion_compensated;
     sidecar_.body_frame = "lidar";
@@ -54,7 +58,7 @@ class ScanFolderWriter : public RecordingWriter {
     const auto* scan = std::get_if<std::shared_ptr<const LidarScan>>(&measurement);
     if (scan != nullptr && (*scan)->sensor == label_) {
       add_scan(**scan);
-    } else {
+    } else if (!tables_.add(measurement)) {
       ++left_out_["measurements of " + sensor_of(measurement)];
     }
   }
@@ -66,6 +70,14 @@ class ScanFolderWriter : public RecordingWriter {
   void commit() override {
     files_.write("times.txt", times_);
     const bool stores = format_ != ScanFolderFormat::kKitti;
+    for (const auto& [name, text] : tables_.files()) files_.write(name, text);
+    if (!tables_.files().empty()) {
+      sensors::Rig rig_of_lidar = rig_;  // the body of the folder is the lidar
+      for (sensors::MountedSensor& sensor : rig_of_lidar.sensors) {
+        sensor.T_body_sensor = T_lidar_body_ * sensor.T_body_sensor;
+      }
+      sidecar_.vehicle = vehicle_statements_of(rig_of_lidar);
+    }
     sidecar_.profile = stored_in_data(profile_, stores && has_rings_, stores && has_times_);
     commit_with_sidecar(sidecar_, files_);
     folder_.commit();
@@ -98,6 +110,9 @@ class ScanFolderWriter : public RecordingWriter {
   std::string label_;
   sensors::LidarProfile profile_;
   ScanFolderFormat format_;
+  const sensors::Rig& rig_;  ///< that of a rawlog grows while it is read
+  geometry::Pose3 T_lidar_body_;
+  SensorTables tables_;
   Sidecar sidecar_;
   std::string times_;
   std::size_t count_ = 0;

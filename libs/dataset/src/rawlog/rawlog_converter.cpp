@@ -1,6 +1,7 @@
 #include "rawlog/rawlog_converter.hpp"
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -96,9 +97,34 @@ const Message* find_message(const mrpt::obs::CObservationGPS& observation) {
   return observation.hasMsgClass<Message>() ? &observation.getMsgByClass<Message>() : nullptr;
 }
 
-GnssFix gnss_fix(const mrpt::obs::CObservationGPS& observation) {
+using BestPosition = mrpt::obs::gnss::Message_NV_OEM6_BESTPOS;
+using InertialAttitude = mrpt::obs::gnss::Message_NV_OEM6_INSPVAS;
+
+/// Novatel's messages, where the receiver says that what they hold can be used; else null.
+const BestPosition* good_position(const mrpt::obs::CObservationGPS& observation) {
+  const auto* message = find_message<BestPosition>(observation);
+  const bool is_good =
+      message != nullptr &&
+      message->fields.solution_stat == mrpt::obs::gnss::nv_oem6_solution_status::SOL_COMPUTED;
+  return is_good ? message : nullptr;
+}
+
+const InertialAttitude* good_attitude(const mrpt::obs::CObservationGPS& observation) {
+  const auto* message = find_message<InertialAttitude>(observation);
+  if (message == nullptr) return nullptr;
+  const auto status = static_cast<std::uint32_t>(message->fields.ins_status);
+  const bool is_good = status == mrpt::obs::gnss::nv_oem6_ins_status_type::INS_SOLUTION_GOOD ||
+                       status == mrpt::obs::gnss::nv_oem6_ins_status_type::INS_SOLUTION_FREE;
+  return is_good ? message : nullptr;
+}
+
+/// Latitude, longitude and altitude: of the receiver's own sentence first, then of Novatel's
+/// messages.
+GnssFix fix_without_quality(const mrpt::obs::CObservationGPS& observation) {
   GnssFix fix;
-  if (const auto* gga = find_message<mrpt::obs::gnss::Message_NMEA_GGA>(observation)) {
+  const auto* best = good_position(observation);
+  const auto* gga = find_message<mrpt::obs::gnss::Message_NMEA_GGA>(observation);
+  if (gga != nullptr && (sensors::is_gga_fix(gga->fields.fix_quality) || best == nullptr)) {
     if (!sensors::is_gga_fix(gga->fields.fix_quality)) {
       throw mrpt_io::UnusableObservation(
           gga->fields.fix_quality == 0
@@ -112,6 +138,18 @@ GnssFix gnss_fix(const mrpt::obs::CObservationGPS& observation) {
     fix.covariance_enu = sensors::covariance_of_gga_quality(gga->fields.fix_quality);
     return fix;
   }
+  if (best != nullptr) {
+    fix.latitude_deg = best->fields.lat;
+    fix.longitude_deg = best->fields.lon;
+    fix.altitude_m = best->fields.hgt + static_cast<double>(best->fields.undulation);
+    return fix;
+  }
+  if (const auto* attitude = good_attitude(observation)) {
+    fix.latitude_deg = attitude->fields.lat;
+    fix.longitude_deg = attitude->fields.lon;
+    fix.altitude_m = attitude->fields.hgt;  // above the ellipsoid
+    return fix;
+  }
   if (const auto* rmc = find_message<mrpt::obs::gnss::Message_NMEA_RMC>(observation)) {
     if (rmc->fields.validity_char != 'A')
       throw mrpt_io::UnusableObservation("GNSS record without a fix");
@@ -120,7 +158,26 @@ GnssFix gnss_fix(const mrpt::obs::CObservationGPS& observation) {
     fix.altitude_m = std::numeric_limits<double>::quiet_NaN();
     return fix;  // its course over ground is not a heading
   }
-  throw mrpt_io::UnusableObservation("GNSS record without GGA or RMC");
+  if (find_message<BestPosition>(observation) != nullptr ||
+      find_message<InertialAttitude>(observation) != nullptr) {
+    throw mrpt_io::UnusableObservation("GNSS record without a fix");
+  }
+  throw mrpt_io::UnusableObservation("GNSS record without GGA, RMC, BESTPOS or INSPVAS");
+}
+
+GnssFix gnss_fix(const mrpt::obs::CObservationGPS& observation) {
+  GnssFix fix = fix_without_quality(observation);
+  if (const auto* best = good_position(observation)) {
+    const Eigen::Vector3d sigmas_enu(best->fields.lon_sigma, best->fields.lat_sigma,
+                                     best->fields.hgt_sigma);
+    if (sigmas_enu.allFinite() && sigmas_enu.minCoeff() > 0) {
+      fix.covariance_enu = Eigen::Matrix3d(sigmas_enu.cwiseAbs2().asDiagonal());
+    }
+  }
+  if (const auto* attitude = good_attitude(observation)) {
+    if (std::isfinite(attitude->fields.azimuth)) fix.heading_deg = attitude->fields.azimuth;
+  }
+  return fix;
 }
 
 WheelOdometry wheel_odometry(const mrpt::obs::CObservationOdometry& observation) {

@@ -47,6 +47,12 @@ const sensors::MountedSensor& RawlogSensors::lidar(const std::string& name,
   if (choice.profile.name == sensors::LidarProfile().name) choice.profile.name = label;
   info_.rig.sensors.back().lidar = choice.profile;
   add_profile_facts(choice, statements_, is_first ? "" : label + ": ", info_.facts);
+  if (!is_first && !statements_.states("lidars")) {
+    const std::string& first = info_.rig.first(SensorKind::kLidar)->label;
+    info_.facts.push_back(
+        {"lidar not used", label,
+         fmt::format("the first is; --recording 'lidars={},{}' takes both as one", first, label)});
+  }
   return info_.rig.sensors.back();
 }
 

@@ -103,6 +103,57 @@ mrpt::obs::CObservationIMU to_observation(const ImuSample& sample) {
   return observation;
 }
 
+/// Numbers and lengths of Novatel's messages. Source: OEM6 Family Firmware Reference Manual
+/// (OM-20000129) and SPAN on OEM6 (OM-20000144), as MRPT's headers lay them out.
+constexpr std::uint16_t kBestPosition = 42;
+constexpr std::uint16_t kBestPositionBytes = 72;
+constexpr std::uint16_t kInertialAttitude = 508;
+constexpr std::uint8_t kInertialAttitudeBytes = 88;
+constexpr std::uint8_t kLongHeaderBytes = 28;
+constexpr std::uint32_t kWgs84 = 61;
+
+/// A fix with its standard deviations.
+mrpt::obs::gnss::Message_NV_OEM6_BESTPOS best_position(const GnssFix& fix) {
+  using mrpt::obs::gnss::nv_oem6_header_t;
+  mrpt::obs::gnss::Message_NV_OEM6_BESTPOS message;
+  auto& fields = message.fields;
+  fields.header.synch[0] = nv_oem6_header_t::SYNCH0;
+  fields.header.synch[1] = nv_oem6_header_t::SYNCH1;
+  fields.header.synch[2] = nv_oem6_header_t::SYNCH2;
+  fields.header.hdr_len = kLongHeaderBytes;
+  fields.header.msg_id = kBestPosition;
+  fields.header.msg_len = kBestPositionBytes;
+  fields.solution_stat = mrpt::obs::gnss::nv_oem6_solution_status::SOL_COMPUTED;
+  fields.position_type = mrpt::obs::gnss::nv_oem6_position_type::SINGLE;
+  fields.lat = fix.latitude_deg;
+  fields.lon = fix.longitude_deg;
+  fields.hgt = fix.altitude_m;
+  fields.datum_id = kWgs84;
+  const Eigen::Vector3d sigmas_enu = fix.covariance_enu->diagonal().cwiseSqrt();
+  fields.lon_sigma = static_cast<float>(sigmas_enu.x());
+  fields.lat_sigma = static_cast<float>(sigmas_enu.y());
+  fields.hgt_sigma = static_cast<float>(sigmas_enu.z());
+  return message;
+}
+
+/// A fix with its heading.
+mrpt::obs::gnss::Message_NV_OEM6_INSPVAS inertial_attitude(const GnssFix& fix) {
+  using mrpt::obs::gnss::nv_oem6_short_header_t;
+  mrpt::obs::gnss::Message_NV_OEM6_INSPVAS message;
+  auto& fields = message.fields;
+  fields.header.synch[0] = nv_oem6_short_header_t::SYNCH0;
+  fields.header.synch[1] = nv_oem6_short_header_t::SYNCH1;
+  fields.header.synch[2] = nv_oem6_short_header_t::SYNCH2;
+  fields.header.msg_len = kInertialAttitudeBytes;
+  fields.header.msg_id = kInertialAttitude;
+  fields.lat = fix.latitude_deg;
+  fields.lon = fix.longitude_deg;
+  fields.hgt = fix.altitude_m;
+  fields.azimuth = *fix.heading_deg;
+  fields.ins_status = mrpt::obs::gnss::nv_oem6_ins_status_type::INS_SOLUTION_GOOD;
+  return message;
+}
+
 mrpt::obs::CObservationGPS to_observation(const GnssFix& fix) {
   mrpt::obs::CObservationGPS observation;
   if (std::isnan(fix.altitude_m)) {
@@ -124,6 +175,8 @@ mrpt::obs::CObservationGPS to_observation(const GnssFix& fix) {
     message.fields.geoidal_distance = 0;
     observation.setMsg(message);
   }
+  if (fix.covariance_enu) observation.setMsg(best_position(fix));
+  if (fix.heading_deg) observation.setMsg(inertial_attitude(fix));
   return observation;
 }
 
@@ -156,11 +209,8 @@ class RawlogWriter : public RecordingWriter {
       : file_(file),
         files_(RecordingFiles::beside(file, options.there)),
         stream_(files_.add_data().temporary_path(), options.gzip_level),
-        info_(info) {
-    if (!reference) return;
-    sidecar_.reference = reference->T_map_body;
-    sidecar_.north_map = reference->north_map;
-  }
+        info_(info),
+        reference_(reference) {}
 
   void add(const sensors::Measurement& measurement) override {
     std::visit([this](const auto& held) { write(held); }, measurement);
@@ -172,20 +222,9 @@ class RawlogWriter : public RecordingWriter {
 
   void commit() override {
     stream_.close();
-    sidecar_.name = info_.name;
-    sidecar_.motion_compensated = info_.motion_compensated;
-    sidecar_.body_frame = info_.rig.body_frame;
-    if (const auto* lidar = info_.rig.first(sensors::SensorKind::kLidar)) {
-      sidecar_.profile = stored_in_data(profile_of(lidar->label), has_rings_, has_times_);
-      sidecar_.profile->intensity_full_scale = 255;
-      if (info_.T_body_camera) {
-        sidecar_.T_camera_lidar = info_.T_body_camera->inverse() * lidar->T_body_sensor;
-      }
-    }
-    if (const auto* wheels = info_.rig.first(sensors::SensorKind::kWheels)) {
-      sidecar_.wheels = *wheels;  // MRPT's odometry has no mounting
-    }
-    commit_with_sidecar(sidecar_, files_);
+    Sidecar sidecar = sidecar_of_whole_rig(info_, reference_, has_rings_, has_times_);
+    if (sidecar.profile) sidecar.profile->intensity_full_scale = 255;
+    commit_with_sidecar(sidecar, files_);
   }
 
  private:
@@ -195,6 +234,7 @@ class RawlogWriter : public RecordingWriter {
     has_rings_ = has_rings_ || !derived.ring.empty();
     has_times_ = has_times_ || !derived.time.empty();
     auto observation = to_observation(*scan, profile, derived);
+    count_rounded(*scan, derived, observation);
     write(observation, scan->stamp, scan->sensor, pose_of(scan->sensor));
   }
 
@@ -206,13 +246,60 @@ class RawlogWriter : public RecordingWriter {
 
   template <typename Sample>
   void write(const Sample& sample) {
+    count_rounded(sample);
     auto observation = to_observation(sample);
     write(observation, sample.stamp, sample.sensor, pose_of(sample.sensor));
+  }
+
+  void count_rounded(const LidarScan& scan, const DerivedPointData& derived,
+                     const mrpt::obs::CObservationVelodyneScan& observation) {
+    const auto& cloud = observation.point_cloud;
+    const mrpt::Clock::time_point stamp = mrpt_io::to_mrpt(scan.stamp);
+    for (std::size_t i = 0; i < derived.time.size(); ++i) {
+      const auto ticks = static_cast<double>((cloud.timestamp[i] - stamp).count());
+      if (static_cast<float>(ticks * 1e-7) == derived.time[i]) continue;
+      ++left_out_["point times finer than 100 ns, by scan"];
+      break;
+    }
+    for (std::size_t i = 0; i < scan.intensity.size(); ++i) {
+      if (cloud.intensity[i] == scan.intensity[i]) continue;
+      ++left_out_["intensities brought to 0 to 255, by scan"];
+      break;
+    }
+  }
+
+  void count_rounded(const ImuSample&) {}
+
+  void count_rounded(const GnssFix& fix) {
+    if (!fix.covariance_enu) return;
+    const Eigen::Matrix3d& covariance = *fix.covariance_enu;
+    const Eigen::Matrix3d variances = covariance.diagonal().asDiagonal();
+    if (covariance != variances) ++left_out_["correlations of fixes"];
+    const Eigen::Vector3d sigmas =
+        covariance.diagonal().cwiseSqrt().cast<float>().template cast<double>();
+    if (sigmas.cwiseAbs2() != covariance.diagonal()) {
+      ++left_out_["digits of fixes' deviations beyond those of a float"];
+    }
+  }
+
+  void count_rounded(const WheelOdometry& odometry) {
+    if (odometry.ticks && (to_encoder(odometry.ticks->left) != odometry.ticks->left ||
+                           to_encoder(odometry.ticks->right) != odometry.ticks->right)) {
+      ++left_out_["counts of pulses beyond 32 bits"];
+    }
+    if (!odometry.T_odom_body) return;
+    const Pose3& pose = *odometry.T_odom_body;
+    if (pose.translation.z() != 0 || pose.rotation(2, 2) != 1) {
+      ++left_out_["heights and tilts of wheel odometry"];
+    }
   }
 
   void write(mrpt::obs::CObservation& observation, geometry::Stamp stamp, const std::string& label,
              const Pose3& T_body_sensor) {
     observation.timestamp = mrpt_io::to_mrpt(stamp);
+    if (mrpt_io::to_stamp(observation.timestamp) != stamp) {
+      ++left_out_["nanoseconds of stamps below 100"];
+    }
     observation.sensorLabel = label;
     observation.setSensorPose(mrpt_io::to_mrpt(T_body_sensor));
     try {
@@ -238,7 +325,7 @@ class RawlogWriter : public RecordingWriter {
   RecordingFiles files_;
   mrpt_io::GzOutput stream_;
   const RecordingInfo& info_;
-  Sidecar sidecar_;
+  const std::optional<Reference> reference_;
   bool has_rings_ = false;
   bool has_times_ = false;
 };

@@ -5,6 +5,8 @@
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/numbers.hpp"
 
+#include "recording/lidars_as_one.hpp"
+
 namespace traverse::dataset {
 
 using files::InputError;
@@ -30,6 +32,9 @@ RecordingInfo begin_info(const fs::path& path, std::string_view format,
   info.facts.push_back(
       {"body frame", info.rig.body_frame, statements.reason("body_frame", kDefault)});
   add_measurement_facts(statements, info.facts);
+  if (statements.states("lidars")) {
+    info.facts.push_back({kLidarsAsOne, statements->lidars, *statements.origin("lidars")});
+  }
   for (const std::string_view code : files::split_words(statements->accept)) {
     info.accepted_contradictions.emplace_back(code);
   }

@@ -11,6 +11,8 @@
 #include "traverse/dataset/recording_formats.hpp"
 #include "traverse/files/input_error.hpp"
 
+#include "recording/lidars_as_one.hpp"
+
 namespace traverse::dataset {
 
 using files::InputError;
@@ -86,7 +88,7 @@ std::unique_ptr<Source> open_recording(const fs::path& path, const OpenOptions& 
                      failure ? failure.message() : "no such file or folder");
   }
   try {
-    return open_by_format(whole, options);
+    return with_lidars_as_one(open_by_format(whole, options));
   } catch (const fs::filesystem_error& error) {
     throw InputError(error.path1(), Place::whole_file(), "a readable recording",
                      error.code().message());

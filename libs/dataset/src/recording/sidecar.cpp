@@ -30,7 +30,51 @@ std::string calibration_text(const geometry::Pose3& T_camera_lidar) {
   return line + "\n";
 }
 
+void bind_cloud_topic(config::Binder& lidar, BagStatements& bag) {
+  if (bag.lidar.empty()) return;
+  lidar.text("topic", bag.lidar, "");
+  if (!bag.has_times) return;
+  std::string unit = "s";
+  std::string zero = "stamp";
+  lidar.text("time_unit", unit, "");
+  lidar.text("time_zero", zero, "");
+}
+
+void bind_topics(config::Binder& b, BagStatements& bag) {
+  const auto add = [&](const char* sensor, std::string& topic) {
+    if (topic.empty()) return;
+    b.group(sensor, "", [&](config::Binder& group) { group.text("topic", topic, ""); });
+  };
+  add("imu", bag.imu);
+  add("gnss", bag.gnss);
+  add("wheels", bag.wheels);
+  add("laser", bag.laser);
+}
+
 }  // namespace
+
+Sidecar sidecar_of_whole_rig(const RecordingInfo& info, const std::optional<Reference>& reference,
+                             bool has_rings, bool has_times) {
+  Sidecar sidecar;
+  sidecar.name = info.name;
+  sidecar.motion_compensated = info.motion_compensated;
+  sidecar.body_frame = info.rig.body_frame;
+  if (reference) {
+    sidecar.reference = reference->T_map_body;
+    sidecar.north_map = reference->north_map;
+  }
+  if (const auto* lidar = info.rig.first(sensors::SensorKind::kLidar)) {
+    sidecar.profile =
+        stored_in_data(lidar->lidar.value_or(sensors::LidarProfile()), has_rings, has_times);
+    if (info.T_body_camera) {
+      sidecar.T_camera_lidar = info.T_body_camera->inverse() * lidar->T_body_sensor;
+    }
+  }
+  if (const auto* wheels = info.rig.first(sensors::SensorKind::kWheels)) {
+    sidecar.wheels = *wheels;  // neither MRPT's odometry nor that of ROS has a mounting
+  }
+  return sidecar;
+}
 
 void commit_with_sidecar(const Sidecar& sidecar, RecordingFiles& files) {
   Sidecar values = sidecar;  // a Binder binds variables, also to list them
@@ -75,8 +119,12 @@ void commit_with_sidecar(const Sidecar& sidecar, RecordingFiles& files) {
           b.group("log", "", [&](config::Binder& log) { bind(log, *values.log); });
         }
         if (values.profile) {
-          b.group("lidar", "", [&](config::Binder& lidar) { bind(lidar, *values.profile); });
+          b.group("lidar", "", [&](config::Binder& lidar) {
+            bind(lidar, *values.profile);
+            if (values.bag) bind_cloud_topic(lidar, *values.bag);
+          });
         }
+        if (values.bag) bind_topics(b, *values.bag);
       },
       false);
   if (sidecar.reference) write_tum(files.add(kReference).stream(), *sidecar.reference);

@@ -12,6 +12,16 @@
 
 namespace traverse::dataset {
 
+/// The topics that a bag's sensors are read from; empty: none of that kind.
+struct BagStatements {
+  std::string lidar;
+  std::string imu;
+  std::string gnss;
+  std::string wheels;
+  std::string laser;
+  bool has_times = false;  ///< of points: seconds after the stamp
+};
+
 /// What is written beside a converted recording, so that opening it again tells the same.
 struct Sidecar {
   std::string name;
@@ -24,6 +34,7 @@ struct Sidecar {
   std::optional<VehicleStatements> vehicle;      ///< of a copy that has no place for mountings
   std::optional<sensors::MountedSensor> wheels;  ///< of a copy that has, but not for wheels
   std::optional<LogStatements> log;
+  std::optional<BagStatements> bag;
 };
 
 class RecordingFiles;
@@ -31,6 +42,11 @@ class RecordingFiles;
 /// Adds reference.tum and calib.txt where there is something to write, and puts everything in its
 /// place with the statements. \throws files::OutputError
 void commit_with_sidecar(const Sidecar& sidecar, RecordingFiles& files);
+
+/// What holds of a copy that keeps the body and all sensors of `info`, with rings and times in the
+/// points as far as these were found.
+Sidecar sidecar_of_whole_rig(const RecordingInfo& info, const std::optional<Reference>& reference,
+                             bool has_rings, bool has_times);
 
 /// The profile of the copy of a recording that stores rings and times with the points.
 sensors::LidarProfile stored_in_data(sensors::LidarProfile profile, bool has_rings, bool has_times);

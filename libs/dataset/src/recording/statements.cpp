@@ -44,6 +44,7 @@ void bind(Binder& b, StatedValues& v) {
   b.flag("motion_compensated", v.motion_compensated,
          "the points of a scan are already deskewed to its stamp");
   b.text("sensor", v.sensor, "lidar profile: a name in share/sensors, or a file");
+  b.text("lidars", v.lidars, "labels of lidars whose scans are used as one's, commas between");
   b.group("reference", "reference trajectory", [&](Binder& reference) {
     reference.text("file", v.reference_file, "relative to the recording's folder");
     reference.choice("format", v.reference_format, kTrajectoryFormatNames, "of the file");
@@ -74,6 +75,8 @@ void bind(Binder& b, StatedValues& v) {
     wheels.text("topic", v.topics.wheels, "of a bag");
     bind(wheels, v.wheel_joints);
   });
+  b.group("laser", "2-D laser",
+          [&](Binder& laser) { laser.text("topic", v.topics.laser, "of a bag"); });
   b.group("vehicle", "mounting of the sensors, and wheel odometry",
           [&](Binder& vehicle) { bind(vehicle, v.vehicle); });
   b.group("log", "format of a text log", [&](Binder& log) { bind(log, v.log); });

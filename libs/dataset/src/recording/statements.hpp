@@ -31,6 +31,7 @@ struct TopicStatements {
   std::string imu;
   std::string gnss;
   std::string wheels;
+  std::string laser;  ///< a 2-D one
   std::string reference;
 };
 
@@ -39,6 +40,7 @@ struct StatedValues {
   std::string name;
   bool motion_compensated = false;
   std::string sensor;
+  std::string lidars;  ///< labels, commas between
   std::string lidar_metadata;
   std::string reference_file;
   TrajectoryFormat reference_format = TrajectoryFormat::kAuto;

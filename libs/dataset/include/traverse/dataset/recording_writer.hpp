@@ -53,14 +53,40 @@ struct RawlogOptions {
 ///
 /// A lidar scan becomes a CObservationVelodyneScan with only its point cloud filled: rings and
 /// times, found as the profile says, go to laser_id and timestamp (ticks of 100 ns), intensity is
-/// scaled to 0 .. 255. The profile that is written says that they are in the data. GNSS headings
-/// and covariances have no place in MRPT 2.5.
+/// scaled to 0 .. 255. The profile that is written says that they are in the data. A fix is a GGA
+/// sentence (RMC without an altitude), with its deviations in a BESTPOS and its heading in an
+/// INSPVAS message of Novatel beside it. What is rounded and what has no place is in left_out().
 ///
 /// `info` must outlive the writer: the rig of a rawlog that is being read may grow.
 std::unique_ptr<RecordingWriter> write_rawlog(const std::filesystem::path& file,
                                               const RecordingInfo& info,
                                               const std::optional<Reference>& reference,
                                               const RawlogOptions& options);
+
+enum class BagFormat { kRos1, kMcap };
+enum class BagPacking { kNone, kLz4, kZstd };
+
+struct BagOptions {
+  BagFormat format = BagFormat::kMcap;
+  BagPacking packing = BagPacking::kNone;  ///< of its chunks; a ROS 1 bag knows no zstd
+  FilesThere there{};
+};
+
+/// Writes `file` as a ROS 1 bag, or as MCAP with the messages of ROS 2: a topic a sensor, called as
+/// the sensor is, the mountings as /tf_static, with the facts in X.traverse.yaml and the reference
+/// in X.reference.tum beside it.
+/// \throws files::OutputError if one of these files is there and this program did not write it.
+///
+/// Scans are PointCloud2 (x, y, z, intensity, time in seconds after the stamp, ring: found as the
+/// profile says) and LaserScan, IMU samples Imu, fixes NavSatFix, wheel odometry Odometry. What no
+/// common message can hold stands in topics beside these: TOPIC/heading, TOPIC/pulses. A message is
+/// logged at the stamp of its measurement.
+///
+/// `info` must outlive the writer, as for write_rawlog().
+std::unique_ptr<RecordingWriter> write_bag(const std::filesystem::path& file,
+                                           const RecordingInfo& info,
+                                           const std::optional<Reference>& reference,
+                                           const BagOptions& options);
 
 /// Writes `file` as a text log with lines IMU, ODOM and GNSS (rad/s, cumulative pulses), with the
 /// mountings and how to read it in X.traverse.yaml and the reference in X.reference.tum beside it.
@@ -75,7 +101,8 @@ enum class ScanFolderFormat { kPcd, kPly, kKitti };
 
 /// Writes the scans of one lidar as `folder`: scans named by their number, times.txt,
 /// traverse.yaml, reference.tum and calib.txt where they are known. The body is then the lidar.
-/// PCD and PLY files hold rings and times, found as the profile says; KITTI's do not.
+/// PCD and PLY files hold rings and times, found as the profile says; KITTI's do not. imu.csv,
+/// gnss.csv and wheels.csv hold the first sensor of each of these kinds.
 /// \throws std::invalid_argument if `info` has no lidar with that label.
 std::unique_ptr<RecordingWriter> write_scan_folder(const std::filesystem::path& folder,
                                                    const RecordingInfo& info,

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <memory>
+
+#include "traverse/dataset/source.hpp"
+
+namespace traverse::dataset {
+
+/// The fact by which a source says that lidars are stated to be used as one: their labels, commas
+/// between.
+inline constexpr const char* kLidarsAsOne = "lidars";
+
+/// The source as it is, or, where its facts state several lidars, one whose scans hold the returns
+/// of all of them.
+///
+/// Scans are those of the first that is stated, which each take what the others measured between
+/// its beginning and that of the next, moved into its frame by the mountings: a return of a rigid
+/// vehicle is where it is whoever saw it, and keeps its own time, by which whoever uses the scan
+/// deskews all alike. Rings of the second follow on those of the first. While the first is silent
+/// the others go on in sweeps of its length. Returns that are none, or nearer or farther than their
+/// own lidar's limits, are left out of scans that are put together.
+/// \throws files::InputError for a label that is no lidar's
+std::unique_ptr<Source> with_lidars_as_one(std::unique_ptr<Source> source);
+
+}  // namespace traverse::dataset
