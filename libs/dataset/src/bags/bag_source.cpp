@@ -386,10 +386,12 @@ class BagSource : public Source {
     const bags::MessageValue value = topic.reader->read(message.bytes);
     const Stamp stamp = header_stamp(value).value_or(Stamp{message.log_time_ns});
     if (topic.kind == TopicKind::kHeading) {
-      if (beside_.heading_deg) queue_.skipped().add("heading without a fix of its stamp behind it", place);
+      if (beside_.heading_deg)
+        queue_.skipped().add("heading without a fix of its stamp behind it", place);
       beside_.heading_deg = {stamp, heading_deg_of(value)};
     } else {
-      if (beside_.pulses) queue_.skipped().add("pulses without odometry of their stamp behind them", place);
+      if (beside_.pulses)
+        queue_.skipped().add("pulses without odometry of their stamp behind them", place);
       beside_.pulses = {stamp, pulses_of(value)};
     }
   }
