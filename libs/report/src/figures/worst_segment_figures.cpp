@@ -45,7 +45,7 @@ struct RegisteredFrame {
   MatchedPoints on_lines, on_planes;
 };
 
-std::vector<float> floats(const dataset::PointCloud& cloud, const std::string& field) {
+std::vector<float> floats_or_zeros(const dataset::PointCloud& cloud, const std::string& field) {
   const dataset::FieldValues* values = cloud.find(field);
   return values == nullptr ? std::vector<float>(cloud.size(), 0) : dataset::to_floats(*values);
 }
@@ -55,12 +55,12 @@ std::map<std::size_t, RegisteredFrame> registered_frames(const RunData& run) {
   if (!run.worst_frames || run.worst_frames->find("frame") == nullptr) return frames;
   const dataset::PointCloud& cloud = *run.worst_frames;
   const std::vector<double> number = dataset::to_doubles(*cloud.find("frame"));
-  const auto x = floats(cloud, "x");
-  const auto y = floats(cloud, "y");
-  const auto z = floats(cloud, "z");
-  const auto kind = floats(cloud, "kind");
-  const std::array offset{floats(cloud, "offset_x"), floats(cloud, "offset_y"),
-                          floats(cloud, "offset_z")};
+  const auto x = floats_or_zeros(cloud, "x");
+  const auto y = floats_or_zeros(cloud, "y");
+  const auto z = floats_or_zeros(cloud, "z");
+  const auto kind = floats_or_zeros(cloud, "kind");
+  const std::array offset{floats_or_zeros(cloud, "offset_x"), floats_or_zeros(cloud, "offset_y"),
+                          floats_or_zeros(cloud, "offset_z")};
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     RegisteredFrame& frame = frames[static_cast<std::size_t>(number[i])];
     if (kind[i] == 0) {
