@@ -39,8 +39,8 @@ struct ConvertOptions {
 
 constexpr const char* kExamples = R"(Examples:
   traverse convert 2011_09_26_drive_0001_sync drive.rawlog
-  traverse convert drive.rawlog drive.bag                      a ROS 1 bag
-  traverse convert drive.rawlog drive.mcap --packing zstd      messages of ROS 2
+  traverse convert drive.rawlog copy.bag                       a ROS 1 bag
+  traverse convert drive.rawlog other.mcap --packing zstd      messages of ROS 2
   traverse convert drive.rawlog scans                          a folder of PCD files and tables
   traverse convert drive.rawlog sequence --format kitti
   traverse convert drive slice.rawlog --first 100 --last 199 --gzip 6

@@ -274,9 +274,8 @@ TEST(RecordingWriter, AFolderNamesWhatItHasNoPlaceFor) {
       {"top", sensors::SensorKind::kLidar, geometry::Pose3::identity(), profile});
   const auto writer =
       write_scan_folder(folder / "out", every.info, std::nullopt, "top", ScanFolderFormat::kKitti);
-  writer->add(every.imu);
-  writer->add(every.imu);
-  writer->add(every.gnss);
+  writer->add(every.wheels);
+  writer->add(every.flat_gnss);
   LidarScan scan = made_scan(2, 3);
   scan.sensor = "top";
   scan.ring.assign(6, 1);
@@ -285,13 +284,70 @@ TEST(RecordingWriter, AFolderNamesWhatItHasNoPlaceFor) {
   scan.sensor = "another lidar";
   writer->add(std::make_shared<const LidarScan>(scan));
   writer->commit();
-  EXPECT_THAT(writer->left_out(),
-              ElementsAre(Pair("measurements of another lidar", 1), Pair("measurements of gps", 1),
-                          Pair("measurements of imu", 2), Pair("point times, by scan", 1),
-                          Pair("ring numbers, by scan", 1)));
+  EXPECT_THAT(
+      writer->left_out(),
+      ElementsAre(Pair("fixes without an altitude", 1), Pair("measurements of another lidar", 1),
+                  Pair("point times, by scan", 1), Pair("poses of wheel odometry", 1),
+                  Pair("pulses of wheels", 1), Pair("ring numbers, by scan", 1),
+                  Pair("sideward and turning speeds of wheel odometry", 1)));
   EXPECT_THROW(
       write_scan_folder(folder / "x", every.info, std::nullopt, "imu", ScanFolderFormat::kPcd),
       std::invalid_argument);
+}
+
+TEST(RecordingWriter, AFolderHasTheOtherSensorsInTables) {
+  const TemporaryFolder folder;
+  EveryKind every;
+  const geometry::Pose3 T_body_lidar = RandomMotion(8).pose(1, 2);
+  every.info.rig.sensors.push_back(
+      {"top", sensors::SensorKind::kLidar, T_body_lidar, sensors::LidarProfile()});
+  const auto writer =
+      write_scan_folder(folder / "out", every.info, std::nullopt, "top", ScanFolderFormat::kPcd);
+  constexpr std::int64_t kEpoch_ns = 1'700'000'000'123'456'789;  // more digits than a double has
+  LidarScan scan = made_scan(2, 3);
+  scan.sensor = "top";
+  scan.stamp = {kEpoch_ns};
+  writer->add(std::make_shared<const LidarScan>(scan));
+  every.imu.stamp = {kEpoch_ns + 1};
+  every.imu.angular_rate = {1.0 / 3, -0.2, 1e-17};
+  writer->add(every.imu);
+  every.gnss.stamp = {kEpoch_ns + 2};
+  writer->add(every.gnss);
+  every.gnss.stamp = {kEpoch_ns + 1'000'000'003};
+  every.gnss.heading_deg = 1000.0 / 3;
+  every.gnss.covariance_enu = Eigen::Vector3d(0.25, 4, 9).asDiagonal();
+  writer->add(every.gnss);
+  every.wheels.stamp = {kEpoch_ns + 4};
+  every.wheels.velocity = {1.0 / 7, 0, 0};
+  writer->add(every.wheels);
+  writer->commit();
+
+  const auto copy = open(folder / "out");
+  const auto all = read_all(*copy);
+  EXPECT_THAT(skipped_in(*copy), IsEmpty());
+  ASSERT_THAT(all, SizeIs(5));
+  const auto& imu = std::get<sensors::ImuSample>(all[1]);
+  EXPECT_EQ(imu.stamp.nanoseconds, kEpoch_ns + 1);
+  EXPECT_EQ(imu.angular_rate, every.imu.angular_rate);
+  EXPECT_EQ(imu.specific_force, every.imu.specific_force);
+  const auto& plain = std::get<sensors::GnssFix>(all[2]);
+  EXPECT_EQ(plain.stamp.nanoseconds, kEpoch_ns + 2);
+  EXPECT_FALSE(plain.heading_deg);
+  EXPECT_FALSE(plain.covariance_enu);
+  EXPECT_EQ(std::get<sensors::WheelOdometry>(all[3]).velocity->forward_mps, 1.0 / 7);
+  const auto& fix = std::get<sensors::GnssFix>(all[4]);
+  EXPECT_EQ(fix.latitude_deg, every.gnss.latitude_deg);
+  EXPECT_EQ(fix.heading_deg, every.gnss.heading_deg);
+  EXPECT_EQ(fix.covariance_enu, every.gnss.covariance_enu);
+  const auto& rig = copy->info().rig;
+  EXPECT_LT((rig.first(sensors::SensorKind::kImu)->T_body_sensor.matrix() -
+             (T_body_lidar.inverse() * every.info.rig.find("imu")->T_body_sensor).matrix())
+                .norm(),
+            1e-12);
+  EXPECT_LT((rig.first(sensors::SensorKind::kGnss)->T_body_sensor.translation -
+             (T_body_lidar.inverse() * every.info.rig.find("gps")->T_body_sensor).translation)
+                .norm(),
+            1e-12);
 }
 
 TEST(RecordingWriter, AFoldersBodyIsItsLidar) {

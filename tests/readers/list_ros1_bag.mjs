@@ -1,6 +1,6 @@
 // Lists a ROS 1 bag as @foxglove/rosbag reads it: a line a message, "topic type log-time-ns bytes".
 import { Bag } from "@foxglove/rosbag";
-import { FileReader } from "@foxglove/rosbag/node";
+import { FileReader } from "@foxglove/rosbag/node.js";
 
 const bag = new Bag(new FileReader(process.argv[2]));
 await bag.open();

@@ -7,6 +7,8 @@
 #include "traverse/config/settings.hpp"
 #include "traverse/dataset/open_recording.hpp"
 
+#include "recording/lidars_as_one.hpp"
+
 namespace traverse::dataset {
 
 namespace {
@@ -38,7 +40,9 @@ std::vector<std::string> lasting_statements(const fs::path& recording, const Ope
   if (options.statements_file) {
     document.overlay(config::Document::load(*options.statements_file));
   }
-  for (const std::string& statement : options.statements) document.set(statement, "--recording");
+  for (const std::string& statement : options.statements) {
+    document.set(with_list_as_text(statement), "--recording");
+  }
   const fs::path whole = recording.has_filename() ? recording : recording.parent_path();
   const fs::path folder = fs::is_directory(whole) ? whole : whole.parent_path();
   std::vector<std::string> statements;

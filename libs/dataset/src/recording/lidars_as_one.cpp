@@ -369,6 +369,16 @@ class LidarsAsOne final : public Source {
 
 }  // namespace
 
+std::string with_list_as_text(const std::string& statement) {
+  const std::string key = std::string(kLidarsAsOne) + "=";
+  if (!statement.starts_with(key)) return statement;
+  const std::string list = statement.substr(key.size());
+  if (list.empty() || list.front() == '"' || list.front() == '\'') return statement;
+  std::string text = key + "'";
+  for (const char c : list) text += c == '\'' ? std::string("''") : std::string(1, c);
+  return text + "'";
+}
+
 std::unique_ptr<Source> with_lidars_as_one(std::unique_ptr<Source> source) {
   for (const Fact& fact : source->info().facts) {
     if (fact.name != kLidarsAsOne) continue;

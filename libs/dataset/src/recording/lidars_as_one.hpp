@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "traverse/dataset/source.hpp"
 
@@ -9,6 +10,10 @@ namespace traverse::dataset {
 /// The fact by which a source says that lidars are stated to be used as one: their labels, commas
 /// between.
 inline constexpr const char* kLidarsAsOne = "lidars";
+
+/// "lidars=front,rear" with its list as one text, which YAML takes for two keys; any other statement
+/// as it is.
+std::string with_list_as_text(const std::string& statement);
 
 /// The source as it is, or, where its facts state several lidars, one whose scans hold the returns
 /// of all of them.

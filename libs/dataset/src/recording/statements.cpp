@@ -3,6 +3,8 @@
 #include <array>
 #include <utility>
 
+#include "recording/lidars_as_one.hpp"
+
 namespace traverse::dataset {
 
 using config::Binder;
@@ -89,7 +91,9 @@ Statements::Statements(const fs::path& sidecar, const OpenOptions& options, fs::
   if (options.statements_file) {
     document_.overlay(config::Document::load(*options.statements_file));
   }
-  for (const std::string& statement : options.statements) document_.set(statement, kOption);
+  for (const std::string& statement : options.statements) {
+    document_.set(with_list_as_text(statement), kOption);
+  }
 
   sensors::LidarProfile checked_only;
   config::read(document_, [&](Binder& b) {
