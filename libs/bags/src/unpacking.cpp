@@ -197,9 +197,9 @@ std::string unpack(Packing packing, std::span<const std::byte> packed, std::uint
 }
 
 bool is_zstd(std::span<const std::byte> bytes) {
-  constexpr std::array<unsigned char, 4> kMagic{0x28, 0xb5, 0x2f, 0xfd};
-  return bytes.size() > kMagic.size() &&
-         std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) == 0;
+  constexpr std::array<unsigned char, 4> kZstdMagic{0x28, 0xb5, 0x2f, 0xfd};
+  return bytes.size() > kZstdMagic.size() &&
+         std::memcmp(bytes.data(), kZstdMagic.data(), kZstdMagic.size()) == 0;
 }
 
 }  // namespace traverse::bags
