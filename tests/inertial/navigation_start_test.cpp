@@ -46,6 +46,7 @@ MapFix map_fix(double seconds, double east_m, double north_m) {
   result.stamp = moment(seconds);
   result.p_antenna_map = {east_m, north_m, 0};
   result.covariance = 0.01 * Eigen::Matrix3d::Identity();
+  result.heading_sigma = 0.005;
   return result;
 }
 

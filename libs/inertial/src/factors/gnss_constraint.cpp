@@ -16,6 +16,7 @@ namespace traverse::inertial {
 
 namespace {
 
+constexpr double kAtOnce_s = 1;          // from the last fix that was believed
 constexpr double kDeadReckoning_s = 10;  // by the IMU alone, to a metre
 
 bool contradicts(const Eigen::Vector3d& difference, const Eigen::Matrix3d& covariance) {
@@ -34,7 +35,10 @@ void GnssConstraint::constrain(FixedLagSmoother& smoother, const MapFix& told,
   if (options_.gate) judge_rejected(smoother, fix, first_sigma, frame, events);
 
   const bool as_pose = options_.form == GnssForm::kPose && fix.heading.has_value();
-  if (as_pose && options_.level_pose) {
+  if (is_of_a_step(fix, frame.gnss_residual_enu)) {
+    take_loosely(smoother, fix, antenna, frame);
+    ++events["fix after a step of the receiver, weighed by how far off it is"];
+  } else if (as_pose && options_.level_pose) {
     take_level_pose(smoother, fix, frame);
   } else if (as_pose) {
     take_pose(smoother, fix, antenna, frame);
@@ -71,11 +75,11 @@ void GnssConstraint::constrain_last(FixedLagSmoother& smoother, const MapFix& fi
 void GnssConstraint::judge_rejected(FixedLagSmoother& smoother, MapFix& fix,
                                     const NavState::Tangent& first_sigma, NavFrame& frame,
                                     Events& events) {
-  if (rejected_.empty()) return;
+  if (rejected_.empty() || is_of_a_step(fix, frame.gnss_residual_enu)) return;
   RejectedFixes with_this = rejected_;
   with_this.add(fix.stamp, frame.gnss_residual_enu, fix.covariance);
   const auto line = with_this.line(patience_s(smoother.newest().v_map.norm()));
-  if (!line || has_stepped(with_this, *line, smoother)) return;
+  if (!line) return;
   fix.covariance = line->of_fix;
   const Eigen::Matrix3d P =
       smoother.covariance().block<3, 3>(NavState::kPosition, NavState::kPosition);
@@ -104,21 +108,33 @@ double GnssConstraint::patience_s(double speed_mps) const {
   return jumped ? std::max(longest_s, kDeadReckoning_s) : longest_s;
 }
 
-/// An estimate that goes astray moves away from the fixes, one by one; a receiver that goes over
-/// from one set of ambiguities to another is elsewhere from one fix to the next, and stays as far
-/// off as that. It comes back, or is believed when dead reckoning would no longer be.
-bool GnssConstraint::has_stepped(const RejectedFixes& rejected, const RejectedFixes::Line& line,
-                                 const FixedLagSmoother& smoother) const {
-  constexpr double kAtOnce_s = 1;
-  if (!last_fix_ || geometry::seconds_between(*last_fix_, rejected.first_stamp()) > kAtOnce_s) {
-    return false;
-  }
-  const double seconds = geometry::seconds_between(rejected.first_stamp(), rejected.last_stamp());
-  if (seconds > kDeadReckoning_s) return false;
-  const bool came_at_once = 2 * rejected.first_residual().norm() > line.offset.norm();
-  const Eigen::Matrix3d P_v =
-      smoother.covariance().block<3, 3>(NavState::kVelocity, NavState::kVelocity);
-  return came_at_once && !contradicts(line.slope, P_v + line.of_slope);
+/// Whether those before were off at once by a decimetre or two, as of a receiver that goes over to
+/// float ambiguities, and this one does not agree with the estimate yet.
+bool GnssConstraint::is_of_a_step(const MapFix& fix, const Eigen::Vector3d& residual) const {
+  constexpr double kLargest_m = 1;
+  if (!options_.gate || !last_fix_ || rejected_.empty()) return false;
+  if (geometry::seconds_between(*last_fix_, rejected_.first_stamp()) > kAtOnce_s) return false;
+  return rejected_.first_residual().norm() <= kLargest_m && residual.norm() <= kLargest_m &&
+         contradicts(residual, fix.covariance);
+}
+
+/// As good as it is far off, and the better the longer: what one second of such fixes says they say
+/// as one, for they err alike. Left out altogether, fixes that come back would find an estimate
+/// whose velocity nothing has held meanwhile; and those that do not would pull it over in one leap,
+/// as soon as its own doubt has grown enough, with a certainty that they do not have.
+void GnssConstraint::take_loosely(FixedLagSmoother& smoother, const MapFix& fix,
+                                  const AntennaFix& antenna, NavFrame& frame) const {
+  const GnssPositionResidual model{antenna};
+  Jacobian<3> J;
+  const Residual<3> r = model(smoother.newest(), &J);
+  frame.gnss = innovation(r, J, smoother.covariance(), fix.covariance);
+  frame.gnss.is_rejected = true;
+  constexpr double kAlike_s = 1;
+  const double seconds = geometry::seconds_between(rejected_.first_stamp(), fix.stamp);
+  const double variance = r.squaredNorm() / std::max(1.0, seconds / kAlike_s);
+  const Eigen::Matrix3d R = fix.covariance + variance * Eigen::Matrix3d::Identity();
+  smoother.add(make_factor(model, R, options_.huber));
+  if (fix.heading) take_heading(smoother, fix, frame);
 }
 
 /// Gives up of the estimate what the fixes contradict: the place, and the velocity, with the

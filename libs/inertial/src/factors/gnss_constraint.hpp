@@ -47,8 +47,9 @@ class GnssConstraint {
   Eigen::Vector3d antenna_body_;
   /// How long rejected fixes have to agree with each other before they are believed.
   double patience_s(double speed_mps) const;
-  bool has_stepped(const RejectedFixes& rejected, const RejectedFixes::Line& line,
-                   const FixedLagSmoother& smoother) const;
+  bool is_of_a_step(const MapFix& fix, const Eigen::Vector3d& residual) const;
+  void take_loosely(FixedLagSmoother& smoother, const MapFix& fix, const AntennaFix& antenna,
+                    NavFrame& frame) const;
 
   RejectedFixes rejected_;                       ///< since the last that was believed
   std::optional<geometry::Stamp> last_fix_;      ///< that was believed

@@ -19,7 +19,6 @@ class RejectedFixes {
   void clear() { fixes_.clear(); }
   bool empty() const { return fixes_.empty(); }
   geometry::Stamp first_stamp() const { return fixes_.front().stamp; }
-  geometry::Stamp last_stamp() const { return fixes_.back().stamp; }
   const Eigen::Vector3d& first_residual() const { return fixes_.front().residual; }
 
   struct Line {
