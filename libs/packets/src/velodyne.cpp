@@ -258,7 +258,8 @@ struct PacketReturns {
         runs[count++] = {
             static_cast<std::uint16_t>(block * kReturns + static_cast<std::size_t>(begin)),
             static_cast<std::uint16_t>(size)};
-        left = begin + size == kReturns ? 0 : left >> (begin + size) << (begin + size);
+        const int end = begin + size;
+        left = end == 32 ? 0 : left >> end << end;
       }
     }
     const auto append = [&](const auto& copy, const auto& from, auto& to) {

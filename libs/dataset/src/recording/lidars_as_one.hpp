@@ -11,8 +11,8 @@ namespace traverse::dataset {
 /// between.
 inline constexpr const char* kLidarsAsOne = "lidars";
 
-/// "lidars=front,rear" with its list as one text, which YAML takes for two keys; any other statement
-/// as it is.
+/// "lidars=front,rear" with its list as one text, which YAML takes for two keys; any other
+/// statement as it is.
 std::string with_list_as_text(const std::string& statement);
 
 /// The source as it is, or, where its facts state several lidars, one whose scans hold the returns
