@@ -298,8 +298,8 @@ TEST(Containers, MessagesOfAChannelThatIsNotDescribedCountOnce) {
     EXPECT_EQ(container->contents().channels.size(), 2U);
     for (int i = 0; i < 3; ++i) {
       EXPECT_EQ(read_all(*container).size(), 40U);
-      EXPECT_EQ(losses_of(*container),
-                "20 x message of a channel that the file does not describe; ");
+      EXPECT_THAT(losses_of(*container),
+                  HasSubstr("20 x message of a channel that the file does not describe; "));
     }
   }
 }
@@ -315,6 +315,7 @@ TEST(Containers, RecordsOfOtherKindsInAnMcapFileArePassedOver) {
     for (const char kind : {'\x80', '\x7f'}) {
       bytes.insert(kMagicBytes, kind + std::string("\x04\0\0\0\0\0\0\0abcd", 12));
     }
+    bytes += std::string("\x0f\x04\0\0\0\0\0\0\0\0\0\0\0", 13);  // the end of the messages
     std::ofstream(folder / "b", std::ios::binary) << bytes;
     const auto container = open_container(folder / "b");
     EXPECT_EQ(read_all(*container), expected_of(messages));

@@ -1,5 +1,6 @@
 #include "recording/arrival_queue.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,12 +13,12 @@ namespace {
 
 using ::testing::ElementsAre;
 
-constexpr std::int64_t kStart = 1'700'000'000'000'000'000;
-constexpr std::int64_t kMilli = 1'000'000;
+constexpr std::int64_t kQueueStart = 1'700'000'000'000'000'000;
+constexpr std::int64_t kQueueMilli = 1'000'000;
 
 /// Records of sensors, told by milliseconds after the start; after them the recording is over.
-std::vector<std::int64_t> read(ArrivalQueue& queue,
-                               const std::vector<std::pair<std::string, std::int64_t>>& records) {
+std::vector<std::int64_t> read_queue(
+    ArrivalQueue& queue, const std::vector<std::pair<std::string, std::int64_t>>& records) {
   std::vector<std::int64_t> stamps;
   std::size_t at = 0;
   const auto read_on = [&] {
@@ -27,16 +28,16 @@ std::vector<std::int64_t> read(ArrivalQueue& queue,
     }
     sensors::ImuSample sample;
     sample.sensor = records[at].first;
-    sample.stamp = geometry::Stamp{kStart + records[at].second * kMilli};
+    sample.stamp = geometry::Stamp{kQueueStart + records[at].second * kQueueMilli};
     queue.push(sample, "record " + std::to_string(++at));
   };
   while (const auto measurement = queue.next(read_on)) {
-    stamps.push_back((sensors::stamp_of(*measurement).nanoseconds - kStart) / kMilli);
+    stamps.push_back((sensors::stamp_of(*measurement).nanoseconds - kQueueStart) / kQueueMilli);
   }
   return stamps;
 }
 
-std::vector<std::string> skipped(const ArrivalQueue& queue) {
+std::vector<std::string> told_of(const ArrivalQueue& queue) {
   std::vector<std::string> told;
   for (const auto& [reason, count] : queue.skipped().by_reason()) {
     told.push_back(std::to_string(count.count) + " x " + reason + " (" +
@@ -48,17 +49,19 @@ std::vector<std::string> skipped(const ArrivalQueue& queue) {
 TEST(ArrivalQueue, GivesWhatComesALittleLateInTheOrderOfStamps) {
   for (const auto clock : {ArrivalQueue::Clock::kWatched, ArrivalQueue::Clock::kSteady}) {
     ArrivalQueue queue(clock);
-    EXPECT_THAT(read(queue, {{"a", 0}, {"b", 100}, {"a", 10}, {"a", 20}, {"b", 200}, {"a", 30}}),
-                ElementsAre(0, 10, 20, 30, 100, 200));
+    EXPECT_THAT(
+        read_queue(queue, {{"a", 0}, {"b", 100}, {"a", 10}, {"a", 20}, {"b", 200}, {"a", 30}}),
+        ElementsAre(0, 10, 20, 30, 100, 200));
     EXPECT_TRUE(queue.is_finished());
-    EXPECT_THAT(skipped(queue), ElementsAre());
+    EXPECT_THAT(told_of(queue), ElementsAre());
   }
 }
 
 TEST(ArrivalQueue, CountsAStampThatIsThereAlready) {
   ArrivalQueue queue(ArrivalQueue::Clock::kSteady);
-  EXPECT_THAT(read(queue, {{"a", 0}, {"a", 10}, {"a", 10}, {"a", 20}}), ElementsAre(0, 10, 20));
-  EXPECT_THAT(skipped(queue), ElementsAre("1 x stamp not later than the one before (record 3)"));
+  EXPECT_THAT(read_queue(queue, {{"a", 0}, {"a", 10}, {"a", 10}, {"a", 20}}),
+              ElementsAre(0, 10, 20));
+  EXPECT_THAT(told_of(queue), ElementsAre("1 x stamp not later than the one before (record 3)"));
 }
 
 TEST(ArrivalQueue, TellsAStepOfTheClockOnceHoweverOftenItIsRead) {
@@ -68,7 +71,7 @@ TEST(ArrivalQueue, TellsAStepOfTheClockOnceHoweverOftenItIsRead) {
   std::vector<Fact> facts;
   for (int time = 0; time < 2; ++time) {
     ArrivalQueue queue;
-    const auto stamps = read(queue, records);
+    const auto stamps = read_queue(queue, records);
     EXPECT_EQ(stamps.size(), 40U);
     EXPECT_TRUE(std::is_sorted(stamps.begin(), stamps.end()));
     queue.note_steps(facts);

@@ -1,7 +1,10 @@
+#include <string>
+
+#include "traverse/files/input_error.hpp"
 #include "traverse/packets/udp_capture.hpp"
 
-#include "fuzz/fuzz_messages.hpp"
 #include "fuzz/fuzz_packets.hpp"
+#include "fuzz/input_in_memory.hpp"
 
 /// A capture, as any recorder writes it.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

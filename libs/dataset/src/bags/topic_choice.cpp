@@ -24,6 +24,8 @@ constexpr std::size_t kPeekedMessages = 5000;
 constexpr std::uint64_t kPeekedBytes = 64 << 20;
 constexpr std::size_t kMostTransforms = 20'000;
 constexpr std::size_t kMovingLooked = 2000;
+// They stand among everything else, which is unpacked with them.
+constexpr std::int64_t kMovingLooked_ns = 10'000'000'000;
 
 bool is_static(const PeekedTopic& topic) { return topic.topic.ends_with("tf_static"); }
 
@@ -225,9 +227,12 @@ FrameTree read_frames(bags::MessageContainer& container, const std::vector<Peeke
     if (channels.empty()) continue;
     container.begin(channels);
     const std::size_t most = are_static ? kMostTransforms : kMovingLooked;
+    std::optional<std::int64_t> first_ns;
     for (std::size_t count = 0; count < most; ++count) {
       const auto message = container.next();
       if (!message) break;
+      if (!first_ns) first_ns = message->log_time_ns;
+      if (!are_static && message->log_time_ns - *first_ns > kMovingLooked_ns) break;
       try {
         for_each_transform(topics[message->channel].reader->read(message->bytes),
                            [&](const std::string& parent, const std::string& child,
