@@ -270,6 +270,59 @@ TEST(Containers, MergeSeveralInTheOrderOfTimes) {
   EXPECT_EQ(rest.size(), 30U);
 }
 
+std::string bytes_of_file(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(Containers, MessagesOfAChannelThatIsNotDescribedCountOnce) {
+  const TemporaryFolder folder;
+  const auto messages = made_messages();
+  for (const bool is_mcap : {false, true}) {
+    const ChunkOptions options{"none", 10, false, false, true};
+    is_mcap ? write_mcap(folder / "a", messages, options)
+            : write_ros1_bag(folder / "a", messages, options);
+    std::string bytes = bytes_of_file(folder / "a");
+    if (is_mcap) {
+      // A record of a kind of its own where the channel stood: before its topic stand the length of
+      // that, the numbers of schema and channel, the length of the record and its kind.
+      const std::size_t kind = bytes.find("/notes") - 4 - 2 - 2 - 8 - 1;
+      ASSERT_EQ(bytes[kind], '\x04');
+      bytes[kind] = '\x80';
+    } else {
+      const std::size_t kind = bytes.rfind("op=\x07", bytes.find("topic=/notes"));
+      bytes[kind + 3] = '\x09';
+    }
+    std::ofstream(folder / "b", std::ios::binary) << bytes;
+    const auto container = open_container(folder / "b");
+    EXPECT_EQ(container->contents().channels.size(), 2U);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(read_all(*container).size(), 40U);
+      EXPECT_THAT(losses_of(*container),
+                  HasSubstr("20 x message of a channel that the file does not describe; "));
+    }
+  }
+}
+
+TEST(Containers, RecordsOfOtherKindsInAnMcapFileArePassedOver) {
+  const TemporaryFolder folder;
+  const auto messages = made_messages();
+  for (const std::size_t a_chunk : {0U, 10U}) {
+    write_mcap(folder / "a", messages, {"none", a_chunk, false, false, true});
+    std::string bytes = bytes_of_file(folder / "a");
+    constexpr std::size_t kMagicBytes = 8;
+    // Of an application, and one that this version does not know.
+    for (const char kind : {'\x80', '\x7f'}) {
+      bytes.insert(kMagicBytes, kind + std::string("\x04\0\0\0\0\0\0\0abcd", 12));
+    }
+    bytes += std::string("\x0f\x04\0\0\0\0\0\0\0\0\0\0\0", 13);  // the end of the messages
+    std::ofstream(folder / "b", std::ios::binary) << bytes;
+    const auto container = open_container(folder / "b");
+    EXPECT_EQ(read_all(*container), expected_of(messages));
+    EXPECT_EQ(losses_of(*container), "");
+  }
+}
+
 TEST(Containers, DamagedChunksCostOnlyThemselves) {
   const TemporaryFolder folder;
   const auto messages = made_messages();

@@ -197,8 +197,23 @@ TEST(MessageValues, DefinitionsThatMakeNoSenseAreRefused) {
     }
   }
   EXPECT_THAT(error(bomb), HasSubstr("too many values"));
+  std::string empty = "C[] c\n====\nMSG: a/C\nuint8 one\n";
+  for (int i = 0; i < 100; ++i) empty += "uint8[0] e" + std::to_string(i) + "\n";
+  EXPECT_THAT(error(empty), HasSubstr("an array of C, most of which is empty"));
   EXPECT_EQ(error("string<=10 a\nfloat64[<=3] b\nint32 c 5\nint32 D=7\nstring e \"#\"\n"),
             "no error");
+}
+
+TEST(MessageValues, AnIdlDefinitionThatIsCutAnywhereIsRefused) {
+  const std::string whole =
+      "module a { module msg { typedef double d9[9]; @unit (value=\"m\") struct B { long x; "
+      "sequence<float, 4> y; d9 z; }; }; };";
+  EXPECT_EQ(parse_idl_definition("a/B", whole).structures.front().fields.size(), 3U);
+  const std::size_t end = whole.rfind('}');
+  for (std::size_t size = 0; size <= end; ++size) {
+    EXPECT_NE(error_of([&] { parse_idl_definition("a/B", whole.substr(0, size)); }), "no error")
+        << size;
+  }
 }
 
 TEST(MessageValues, OtherRepresentationsAreNamed) {

@@ -1,6 +1,8 @@
 #include "chunked_container.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -76,6 +78,60 @@ std::string ChunkedContainer::load(const Chunk& chunk, std::vector<std::byte>& b
   }
 }
 
+std::uint32_t ChunkedContainer::index_of(Channel channel) {
+  const auto same =
+      std::find_if(contents_.channels.begin(), contents_.channels.end(), [&](const Channel& other) {
+        return other.topic == channel.topic && other.type == channel.type &&
+               other.encoding == channel.encoding && other.definition == channel.definition;
+      });
+  const auto index = static_cast<std::uint32_t>(same - contents_.channels.begin());
+  if (same == contents_.channels.end()) contents_.channels.push_back(std::move(channel));
+  return index;
+}
+
+void ChunkedContainer::look_into(Chunk chunk) {
+  std::vector<std::byte> bytes;
+  std::string fault = load(chunk, bytes);
+  find_channels(bytes);
+  std::vector<Found> messages;
+  const std::string broken = find_messages(bytes, messages);
+  if (fault.empty()) fault = broken;
+  std::set<std::uint32_t> channels;
+  chunk.first_ns = std::numeric_limits<std::int64_t>::max();
+  chunk.last_ns = std::numeric_limits<std::int64_t>::min();
+  for (const Found& message : messages) {
+    if (message.channel == kUndescribed) continue;
+    chunk.first_ns = std::min(chunk.first_ns, message.log_time_ns);
+    chunk.last_ns = std::max(chunk.last_ns, message.log_time_ns);
+    channels.insert(message.channel);
+    ++contents_.channels[message.channel].count;
+  }
+  if (channels.empty()) {  // it will not be read again, which would tell
+    if (!fault.empty()) losses_.add(fault, place_of(chunk));
+    tell_undescribed(messages, chunk);
+    return;
+  }
+  chunk.channels.assign(channels.begin(), channels.end());
+  chunks_.push_back(std::move(chunk));
+}
+
+void ChunkedContainer::tell_undescribed(const std::vector<Found>& messages, const Chunk& chunk) {
+  for (const Found& message : messages) {
+    if (message.channel != kUndescribed) continue;
+    losses_.add("message of a channel that the file does not describe", place_of(chunk));
+  }
+}
+
+std::string ChunkedContainer::packings() const {
+  std::set<std::string_view> names;
+  for (const Chunk& chunk : chunks_) names.insert(name_of(chunk.packing));
+  std::string text;
+  for (const std::string_view name : names) {
+    text += (text.empty() ? "" : ", ") + std::string(name);
+  }
+  return text.empty() ? "none" : text;
+}
+
 bool ChunkedContainer::has_wanted(const Chunk& chunk) const {
   return chunk.channels.empty() ||
          std::any_of(chunk.channels.begin(), chunk.channels.end(), [&](std::uint32_t channel) {
@@ -90,6 +146,14 @@ void ChunkedContainer::begin(const std::vector<std::size_t>& channels) {
   waiting_ = {};
   left_.clear();
   cached_.clear();
+}
+
+/// Gives memory back: of a recording in many files those behind are not read again.
+void ChunkedContainer::release() {
+  cached_.clear();
+  spare_.clear();
+  packed_ = {};
+  found_ = {};
 }
 
 void ChunkedContainer::make_room(std::uint64_t bytes) {
@@ -143,11 +207,12 @@ ChunkedContainer::Cached& ChunkedContainer::cache(std::size_t chunk) {
 
 void ChunkedContainer::take_chunk(std::size_t chunk) {
   found_.clear();
-  const std::string fault = find_messages(cache(chunk).bytes, found_);
-  if (!fault.empty() && !is_told_[chunk]) {
-    losses_.add(fault, place_of(chunks_[chunk]));
-    is_told_[chunk] = true;
-  }
+  const bool is_first_time = !is_told_[chunk];
+  const std::vector<std::byte>& bytes = cache(chunk).bytes;
+  const std::string fault = find_messages(bytes, found_);
+  if (!fault.empty() && !is_told_[chunk]) losses_.add(fault, place_of(chunks_[chunk]));
+  if (is_first_time) tell_undescribed(found_, chunks_[chunk]);
+  is_told_[chunk] = true;
   for (const Found& message : found_) {
     if (message.channel >= wanted_.size() || !wanted_[message.channel]) continue;
     waiting_.push({message, chunk});
@@ -162,7 +227,10 @@ std::optional<Message> ChunkedContainer::next() {
     if (has_wanted(chunk)) take_chunk(next_chunk_);
     ++next_chunk_;
   }
-  if (waiting_.empty()) return std::nullopt;
+  if (waiting_.empty()) {
+    release();
+    return std::nullopt;
+  }
   const Entry entry = waiting_.top();
   waiting_.pop();
   const Cached& chunk = cache(entry.chunk);

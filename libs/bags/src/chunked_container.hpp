@@ -55,12 +55,25 @@ class ChunkedContainer : public MessageContainer {
 
   explicit ChunkedContainer(const std::filesystem::path& file) : file_(file) {}
 
+  /// Of a message whose channel the file does not describe: counted, not given.
+  static constexpr std::uint32_t kUndescribed = 0xffffffff;
+
   /// Tells every message of an unpacked chunk. \returns what ended it too early; empty if nothing
   virtual std::string find_messages(std::span<const std::byte> chunk,
                                     std::vector<Found>& messages) = 0;
+  /// Takes in the channels that an unpacked chunk describes.
+  virtual void find_channels(std::span<const std::byte> chunk) = 0;
 
-  /// The chunk's bytes, as many as can be had. \returns what is wrong; empty if nothing
-  std::string load(const Chunk& chunk, std::vector<std::byte>& bytes);
+  /// The channel of equal topic, type, encoding and definition, which is added if there is none:
+  /// publishers of one topic have a channel each in a file.
+  std::uint32_t index_of(Channel channel);
+
+  /// Of a file without an index: unpacks the chunk for its channels, times and counts, and keeps it
+  /// if it has messages.
+  void look_into(Chunk chunk);
+
+  /// How the chunks are packed: "lz4, none".
+  std::string packings() const;
 
   /// Puts the chunks, which the reader has filled in, in the order of their first times and fills
   /// in times and number of messages. \throws files::InputError if there is neither a channel nor a
@@ -87,6 +100,10 @@ class ChunkedContainer : public MessageContainer {
   };
   struct Here;
 
+  /// The chunk's bytes, as many as can be had. \returns what is wrong; empty if nothing
+  std::string load(const Chunk& chunk, std::vector<std::byte>& bytes);
+  void tell_undescribed(const std::vector<Found>& messages, const Chunk& chunk);
+  void release();
   bool has_wanted(const Chunk& chunk) const;
   void take_chunk(std::size_t chunk);
   Cached& cache(std::size_t chunk);

@@ -31,6 +31,7 @@ class DefinitionBuilder {
   static constexpr std::size_t kMostStructures = 1000;
   static constexpr std::size_t kDeepest = 30;
   static constexpr std::uint64_t kMostValues = 100'000;  ///< outside arrays, of one message
+  static constexpr std::uint64_t kMostValuesAByte = 16;  ///< of a structure in an array
 
   const Written* find(const std::string& user, const std::string& name) const;
   std::size_t place(const Written& written, std::vector<std::string>& above);

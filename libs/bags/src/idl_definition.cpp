@@ -130,7 +130,6 @@ class IdlParser {
 
   void item(DefinitionBuilder& builder) {
     skip_annotations();
-    if (at_ >= tokens_.size()) return;
     const std::string word = take();
     if (word == ";") return;
     if (word == "module") {

@@ -2,7 +2,6 @@
 #include <array>
 #include <limits>
 #include <map>
-#include <set>
 #include <string_view>
 #include <utility>
 
@@ -52,15 +51,15 @@ class Mcap : public ChunkedContainer {
  public:
   explicit Mcap(const std::filesystem::path& file) : ChunkedContainer(file) {
     if (read_summary()) {
-      contents_.how = fmt::format("index of {} chunks ({})", chunks_.size(), mcap_packings());
+      contents_.how = fmt::format("index of {} chunks ({})", chunks_.size(), packings());
     } else {
       chunks_.clear();
       contents_.channels.clear();
       channel_at_.clear();
       schemas_.clear();
       look_through();
-      contents_.how = fmt::format("no index: {} chunks ({}) were looked through", chunks_.size(),
-                                  mcap_packings());
+      contents_.how =
+          fmt::format("no index: {} chunks ({}) were looked through", chunks_.size(), packings());
     }
     finish_opening("an MCAP file");
   }
@@ -75,11 +74,14 @@ class Mcap : public ChunkedContainer {
       const auto time = static_cast<std::int64_t>(record.number<std::uint64_t>());
       record.number<std::uint64_t>();  // when it was published
       const auto channel = channel_at_.find(id);
-      if (channel == channel_at_.end()) {
-        losses_.add("message of a channel that the file does not describe", "in a chunk");
-        return;
-      }
-      messages.push_back({channel->second, time, offset + record.at(), record.left()});
+      messages.push_back({channel == channel_at_.end() ? kUndescribed : channel->second, time,
+                          offset + record.at(), record.left()});
+    });
+  }
+  void find_channels(std::span<const std::byte> chunk) override {
+    for_each_record(chunk, [&](std::uint8_t op, ByteCursor record, std::size_t) {
+      if (op == kMcapSchema) add_schema(record);
+      if (op == kMcapChannel) add_channel(record);
     });
   }
 
@@ -99,15 +101,6 @@ class Mcap : public ChunkedContainer {
       return "a chunk that ends within a record: its rest is lost";
     }
     return {};
-  }
-
-  std::string mcap_packings() const {
-    std::set<std::string_view> names;
-    for (const Chunk& chunk : chunks_) names.insert(name_of(chunk.packing));
-    std::string text;
-    for (const std::string_view name : names)
-      text += (text.empty() ? "" : ", ") + std::string(name);
-    return text.empty() ? "none" : text;
   }
 
   void add_schema(ByteCursor record) {
@@ -139,13 +132,7 @@ class Mcap : public ChunkedContainer {
         if (channel.definition.empty()) channel.definition_form = DefinitionForm::kNone;
       }
     }
-    const auto same = std::find_if(
-        contents_.channels.begin(), contents_.channels.end(), [&](const Channel& other) {
-          return other.topic == channel.topic && other.type == channel.type &&
-                 other.encoding == channel.encoding && other.definition == channel.definition;
-        });
-    channel_at_[id] = static_cast<std::uint32_t>(same - contents_.channels.begin());
-    if (same == contents_.channels.end()) contents_.channels.push_back(std::move(channel));
+    channel_at_[id] = index_of(std::move(channel));
   }
 
   /// \throws InputError for a packing that is not known
@@ -253,7 +240,7 @@ class Mcap : public ChunkedContainer {
         const auto op = cursor.number<std::uint8_t>();
         const auto length = cursor.number<std::uint64_t>();
         const std::uint64_t left = file_.size() - at - kRecordHead;
-        if (op == 0 || op > kMcapDataEnd) throw CutShort();
+        if (op == 0) throw CutShort();  // those that are not known are to be passed over
         if (op == kMcapMessage) {
           if (length > left) throw CutShort();
           if (!piece) piece.emplace(Chunk{at, 0, 0});
@@ -300,34 +287,6 @@ class Mcap : public ChunkedContainer {
     chunk.position = at + cursor.at();
     if (chunk.packed > length || cursor.at() > length - chunk.packed) throw CutShort();
     return chunk;
-  }
-
-  /// Finds out what a chunk holds, and keeps it if there are messages.
-  void look_into(Chunk chunk) {
-    std::vector<std::byte> bytes;
-    std::string fault = load(chunk, bytes);
-    for_each_record(bytes, [&](std::uint8_t op, ByteCursor record, std::size_t) {
-      if (op == kMcapSchema) add_schema(record);
-      if (op == kMcapChannel) add_channel(record);
-    });
-    std::vector<Found> messages;
-    const std::string broken = find_messages(bytes, messages);
-    if (fault.empty()) fault = broken;
-    if (messages.empty()) {
-      if (!fault.empty()) losses_.add(fault, place_of(chunk));
-      return;
-    }
-    std::set<std::uint32_t> channels;
-    chunk.first_ns = std::numeric_limits<std::int64_t>::max();
-    chunk.last_ns = std::numeric_limits<std::int64_t>::min();
-    for (const Found& message : messages) {
-      chunk.first_ns = std::min(chunk.first_ns, message.log_time_ns);
-      chunk.last_ns = std::max(chunk.last_ns, message.log_time_ns);
-      channels.insert(message.channel);
-      ++contents_.channels[message.channel].count;
-    }
-    chunk.channels.assign(channels.begin(), channels.end());
-    chunks_.push_back(std::move(chunk));
   }
 
   std::map<std::uint16_t, McapSchema> schemas_;

@@ -155,6 +155,12 @@ std::size_t DefinitionBuilder::place(const Written& written, std::vector<std::st
       if (one == 0 && placed.count != MessageDefinition::Count::kOne) {
         throw BadMessage(fmt::format("a definition with an array of {}, which is empty", type));
       }
+      // Reading takes time by the values, and their number follows from the bytes.
+      if (placed.count != MessageDefinition::Count::kOne &&
+          values_[*placed.structure] / kMostValuesAByte > one) {
+        throw BadMessage(
+            fmt::format("a definition with an array of {}, most of which is empty", type));
+      }
     }
     const std::uint64_t times = placed.count == MessageDefinition::Count::kFixed ? placed.fixed : 1;
     std::uint64_t all = placed.count == MessageDefinition::Count::kMany ? 4 : 0;

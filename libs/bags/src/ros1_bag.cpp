@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <set>
 #include <string_view>
 #include <utility>
 
@@ -137,17 +136,24 @@ class Ros1Bag : public ChunkedContainer {
         const auto data = cursor.take(cursor.number<std::uint32_t>());
         if (fields.op() != kMessageData) continue;
         const auto channel = channel_of_.find(fields.number<std::uint32_t>("conn"));
-        if (channel == channel_of_.end()) {
-          losses_.add("message of a connection that the bag does not describe", "in a chunk");
-          continue;
-        }
-        messages.push_back(
-            {channel->second, fields.time_ns("time"), cursor.at() - data.size(), data.size()});
+        messages.push_back({channel == channel_of_.end() ? kUndescribed : channel->second,
+                            fields.time_ns("time"), cursor.at() - data.size(), data.size()});
       }
     } catch (const CutShort&) {
       fault = "a chunk that ends within a record: its rest is lost";
     }
     return fault;
+  }
+  void find_channels(std::span<const std::byte> chunk) override {
+    ByteCursor cursor(chunk);
+    try {
+      while (cursor.left() > 0) {
+        const BagFields fields(cursor.take(cursor.number<std::uint32_t>()));
+        const auto data = cursor.take(cursor.number<std::uint32_t>());
+        if (fields.op() == kConnection) add_connection(fields, data);
+      }
+    } catch (const CutShort&) {  // its messages end there too, which is told
+    }
   }
 
  private:
@@ -170,15 +176,6 @@ class Ros1Bag : public ChunkedContainer {
     return record;
   }
 
-  std::string packings() const {
-    std::set<std::string_view> names;
-    for (const Chunk& chunk : chunks_) names.insert(name_of(chunk.packing));
-    std::string text;
-    for (const std::string_view name : names)
-      text += (text.empty() ? "" : ", ") + std::string(name);
-    return text.empty() ? "none" : text;
-  }
-
   void add_connection(const BagFields& fields, std::span<const std::byte> data) {
     const auto id = fields.number<std::uint32_t>("conn");
     if (channel_of_.contains(id)) return;
@@ -190,14 +187,7 @@ class Ros1Bag : public ChunkedContainer {
     channel.serialization = Serialization::kRos1;
     channel.definition_form = DefinitionForm::kMsg;
     channel.definition = std::string(described.text("message_definition"));
-    // Publishers of one topic have a connection each.
-    const auto same = std::find_if(
-        contents_.channels.begin(), contents_.channels.end(), [&](const Channel& other) {
-          return other.topic == channel.topic && other.type == channel.type &&
-                 other.definition == channel.definition;
-        });
-    channel_of_[id] = static_cast<std::uint32_t>(same - contents_.channels.begin());
-    if (same == contents_.channels.end()) contents_.channels.push_back(std::move(channel));
+    channel_of_[id] = index_of(std::move(channel));
   }
 
   void read_connection(const BagRecord& record) {
@@ -267,11 +257,6 @@ class Ros1Bag : public ChunkedContainer {
 
   /// Reads records from `at` on, as far as the file goes.
   void look_through(std::uint64_t at) {
-    bool is_behind_chunk = false;  // whose times are not known yet
-    const auto finish_chunk = [&] {
-      if (is_behind_chunk) look_into(chunks_.back());
-      is_behind_chunk = false;
-    };
     try {
       while (at < file_.size()) {
         const auto record = read_record(at);
@@ -279,12 +264,9 @@ class Ros1Bag : public ChunkedContainer {
         const BagFields fields(record->header);
         switch (fields.op()) {
           case kChunk:
-            finish_chunk();
-            chunks_.push_back(chunk_from(*record));
-            is_behind_chunk = true;
+            look_into(chunk_from(*record));
             break;
           case kConnection:
-            finish_chunk();
             read_connection(*record);
             break;
           case kMessageData:
@@ -299,37 +281,6 @@ class Ros1Bag : public ChunkedContainer {
       losses_.add("the file is cut short or damaged: what follows is lost",
                   fmt::format("byte {} of {}", at, file_.size()));
     }
-    finish_chunk();
-    std::erase_if(chunks_, [](const Chunk& chunk) { return chunk.channels.empty(); });
-  }
-
-  /// Unpacks the chunk for its connections, times and counts.
-  void look_into(Chunk& chunk) {
-    std::vector<std::byte> bytes;
-    std::string fault = load(chunk, bytes);
-    ByteCursor cursor(bytes);
-    try {
-      while (cursor.left() > 0) {
-        const BagFields fields(cursor.take(cursor.number<std::uint32_t>()));
-        const auto data = cursor.take(cursor.number<std::uint32_t>());
-        if (fields.op() == kConnection) add_connection(fields, data);
-      }
-    } catch (const CutShort&) {
-    }
-    std::vector<Found> messages;
-    const std::string broken = find_messages(bytes, messages);
-    if (fault.empty()) fault = broken;
-    std::set<std::uint32_t> channels;
-    for (const Found& message : messages) {
-      const bool is_first = channels.empty();
-      chunk.first_ns =
-          is_first ? message.log_time_ns : std::min(chunk.first_ns, message.log_time_ns);
-      chunk.last_ns = is_first ? message.log_time_ns : std::max(chunk.last_ns, message.log_time_ns);
-      channels.insert(message.channel);
-      ++contents_.channels[message.channel].count;
-    }
-    chunk.channels.assign(channels.begin(), channels.end());
-    if (!fault.empty() && messages.empty()) losses_.add(fault, place_of(chunk));
   }
 
   std::map<std::uint32_t, std::uint32_t> channel_of_;  ///< by connection
