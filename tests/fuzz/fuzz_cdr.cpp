@@ -24,7 +24,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   try {
     const MessageReader reader(definition_of(channel), channel.serialization);
-    traverse::fuzz::walk(reader.read(std::as_bytes(std::span(rest.data(), rest.size()))));
+    traverse::fuzz::walk(reader.read(std::as_bytes(std::span(rest.data(), rest.size()))),
+                         reader.definition(), 0);
   } catch (const BadMessage&) {
   }
   return 0;
