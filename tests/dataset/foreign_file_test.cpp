@@ -42,11 +42,25 @@ TEST(ForeignFile, IsToldByItsFirstBytes) {
       {padded("age-encryption.org/v1"), "foreign_encrypted"},
       {"version https://git-lfs.github.com/spec/v1\noid sha256:0\n", "foreign_lfs_pointer"},
       {"<!DOCTYPE html><html></html>", "foreign_web_page"},
+      {"<!doctype html><html></html>", "foreign_web_page"},
+      {"<html><body></body></html>", "foreign_web_page"},
+      {padded("#ROSRECORD V1.1\n"), "foreign_bag_old"},
       {padded("PK\x03\x04"), "foreign_archive"},
+      {padded("7z\xbc\xaf\x27\x1c"), "foreign_archive"},
+      {padded("Rar!\x1a\x07"), "foreign_archive"},
+      {padded("\xfd\x37zXZ"), "foreign_archive"},
+      {padded("\x04\x22\x4d\x18"), "foreign_archive"},
+      {padded("BZh9"), "foreign_archive"},
+      {padded("\x1f\x8b\x08"), "foreign_archive"},
+      {std::string(257, '\1') + "ustar" + std::string(100, '\0'), "foreign_archive"},
       {padded("\x28\xb5\x2f\xfd"), "foreign_archive"},
       {padded("\x89HDF\r\n\x1a\n"), "foreign_hdf5"},
       {padded("\x93NUMPY"), "foreign_numpy"},
+      {padded("ULog\x01\x12\x35"), "foreign_ulog"},
+      {padded("\x89PNG\r\n\x1a\n"), "foreign_image"},
+      {padded("\xff\xd8\xff"), "foreign_image"},
   };
+  std::set<std::string_view> tried;
   for (const auto& [bytes, code] : files) {
     const TemporaryFolder folder;
     std::filesystem::create_directories(folder / "drive");
@@ -59,6 +73,10 @@ TEST(ForeignFile, IsToldByItsFirstBytes) {
     EXPECT_EQ(of_folder->code, code);
     EXPECT_THAT(opening_error(folder / "drive/x.dat"), HasSubstr(of_file->action)) << code;
     EXPECT_THAT(opening_error(folder / "drive"), HasSubstr(of_file->name)) << code;
+    tried.insert(of_file->code);
+  }
+  for (const ForeignFormat& format : foreign_formats()) {
+    EXPECT_TRUE(tried.contains(format.code)) << format.code << " is not tried here";
   }
 }
 
