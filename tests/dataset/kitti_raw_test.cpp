@@ -154,6 +154,26 @@ TEST(KittiRaw, WithoutCalibrationTheImuIsTakenToBeTheLidarAndSaysSo) {
   EXPECT_TRUE(source->reference());
 }
 
+TEST(KittiRaw, ADriveWithoutOxtsTakesTheTablesBesideIt) {
+  const TemporaryFolder folder;
+  const fs::path drive = make_raw_drive(folder.path(), 3);
+  files::write_text(drive / "imu.csv",
+                    "t,wx,wy,wz,ax,ay,az\n1317042146.0,0.1,0.2,0.3,1,2,9.8\n"
+                    "1317042146.1,0.1,0.2,0.3,1,2,9.8\n");
+  files::write_text(drive / "gnss.csv", "t,latitude,longitude,altitude\n1317042146.05,48,11,500\n");
+  {
+    const auto source = open(drive);
+    EXPECT_EQ(read_all(*source).size(), 9U) << "the INS of the drive is its IMU and receiver";
+    EXPECT_EQ(source->info().rig.sensors.size(), 3U);
+  }
+  fs::remove_all(drive / "oxts");
+  const auto source = open(drive, {"vehicle.imu.position_m=[1, 2, 3]"});
+  EXPECT_EQ(read_all(*source).size(), 3U + 2U + 1U);
+  ASSERT_NE(source->info().rig.first(sensors::SensorKind::kImu), nullptr);
+  EXPECT_EQ(source->info().rig.first(sensors::SensorKind::kImu)->T_body_sensor.translation,
+            Eigen::Vector3d(1, 2, 3));
+}
+
 TEST(KittiRaw, ABadPacketIsSkippedAndCounted) {
   const TemporaryFolder folder;
   const fs::path drive = make_raw_drive(folder.path(), 4);

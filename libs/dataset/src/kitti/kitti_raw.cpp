@@ -9,6 +9,7 @@
 #include "kitti/kitti_bin.hpp"
 #include "kitti/kitti_lidar.hpp"
 #include "kitti/oxts.hpp"
+#include "navigation_log/tables_beside.hpp"
 #include "recording/folder_opening.hpp"
 #include "recording/stamp_files.hpp"
 #include "recording/unused_files.hpp"
@@ -163,8 +164,11 @@ std::unique_ptr<Source> open_kitti_raw(const fs::path& folder, const OpenOptions
     recording.reference = oxts_reference(oxts, T_lidar_imu, folder / "oxts", info.facts);
     if (recording.reference) info.reference_receiver = kGnss;
   }
-  note_unused_files(info, options, recording.reference, info.expected_scans);
+  const bool has_oxts = !oxts.packets.empty();
   recording.others = std::move(oxts.records);
+  // Drives of other cars in this layout have tables instead.
+  if (!has_oxts) add_tables(recording, folder, statements);
+  note_unused_files(info, options, recording.reference, info.expected_scans);
   return make_folder_source(std::move(recording));
 }
 
