@@ -88,6 +88,10 @@ std::string definition_text(std::string_view type, Wire wire) {
            "geometry_msgs/TwistWithCovariance\nTwist twist\nfloat64[36] covariance" + kRule +
            "geometry_msgs/Twist\nVector3 linear\nVector3 angular" + kVector;
   }
+  if (type == "sensor_msgs/JointState") {
+    return head + "\nstring[] name\nfloat64[] position\nfloat64[] velocity\nfloat64[] effort\n" +
+           header_of(wire);
+  }
   if (const auto packets = packets_definition(type, wire); !packets.empty()) {
     return head + packets + header_of(wire);
   }
@@ -156,6 +160,19 @@ std::string odometry_message(Wire wire, std::int64_t ns, std::string_view frame,
   writer.header(ns, frame).text(child).all(xyz[0], xyz[1], xyz[2]);
   for (const double part : quaternion_xyzw) writer.f64(part);
   return writer.zeros(36).all(forward, 0, 0, 0, 0, yaw_rate).zeros(36).take();
+}
+
+std::string joints_message(Wire wire, std::int64_t ns, const std::vector<JointOf>& joints,
+                           bool has_positions) {
+  MessageWriter writer(wire);
+  writer.header(ns, "").u32(joints.size());
+  for (const JointOf& joint : joints) writer.text(joint.name);
+  writer.u32(has_positions ? joints.size() : 0);
+  for (const JointOf& joint : joints) {
+    if (has_positions) writer.f64(joint.position);
+  }
+  writer.u32(joints.size()).zeros(joints.size()).u32(0);
+  return writer.take();
 }
 
 }  // namespace traverse::testing

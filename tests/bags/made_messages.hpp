@@ -121,4 +121,12 @@ std::string odometry_message(Wire wire, std::int64_t ns, std::string_view frame,
                              std::string_view child, const double (&xyz)[3],
                              const double (&quaternion_xyzw)[4], double forward, double yaw_rate);
 
+struct JointOf {
+  std::string name;
+  double position = 0;
+};
+/// \param has_positions else the message tells velocities only
+std::string joints_message(Wire wire, std::int64_t ns, const std::vector<JointOf>& joints,
+                           bool has_positions = true);
+
 }  // namespace traverse::testing

@@ -270,6 +270,123 @@ TEST(BagSource, MessagesThatLieAboutThemselvesCostOnlyThemselves) {
   EXPECT_EQ(source->skipped().total(), 3U);
 }
 
+/// Scans and, between them, joints whose angles grow as they are told.
+void write_bag_with_joints(const fs::path& file, Wire wire,
+                           const std::vector<std::vector<std::string>>& publishers,
+                           bool has_positions = true) {
+  std::vector<MadeMessage> messages;
+  for (int i = 0; i < 5; ++i) {
+    const std::int64_t ns = kStart + i * kTenth;
+    messages.push_back(scan_message("/points", ns, "lidar", wire));
+    for (std::size_t k = 0; k < publishers.size(); ++k) {
+      std::vector<JointOf> joints;
+      for (const std::string& name : publishers[k]) {
+        joints.push_back({name, 0.5 * i + 10.0 * static_cast<double>(joints.size())});
+      }
+      const std::int64_t at = ns + static_cast<std::int64_t>(k + 1) * 1'000'000;
+      messages.push_back({"/joint_states", "sensor_msgs/JointState", at,
+                          joints_message(wire, at, joints, has_positions)});
+    }
+  }
+  if (wire == Wire::kRos1) {
+    write_ros1_bag(file, messages);
+  } else {
+    write_mcap(file, messages, {}, wire);
+  }
+}
+
+std::vector<sensors::WheelOdometry::Ticks> ticks_in(Source& source) {
+  std::vector<sensors::WheelOdometry::Ticks> ticks;
+  for (const auto& measurement : read_all(source)) {
+    if (const auto* wheels = std::get_if<sensors::WheelOdometry>(&measurement)) {
+      ticks.push_back(wheels->ticks.value());
+    }
+  }
+  return ticks;
+}
+
+TEST(BagSource, JointsThatAreWheelsArePulses) {
+  const TemporaryFolder folder;
+  for (const Wire wire : {Wire::kRos1, Wire::kCdr, Wire::kCdrBigEndian}) {
+    const fs::path file = folder / (wire == Wire::kRos1 ? "a.bag" : "a.mcap");
+    // An arm's joints come in messages of their own, before the wheels'.
+    write_bag_with_joints(file, wire,
+                          {{"elbow", "wrist"}, {"wheel_left_joint", "wheel_right_joint"}});
+    const auto source = open(file, {"wheels.radius_m=0.2"});
+    EXPECT_EQ(fact_value(*source, "wheels"), "/joint_states");
+    const auto* wheels = source->info().rig.first(sensors::SensorKind::kWheels);
+    ASSERT_NE(wheels, nullptr);
+    ASSERT_TRUE(wheels->encoder);
+    EXPECT_DOUBLE_EQ(wheels->encoder->left_m_per_pulse, 0.2 / 10'000);
+    const auto ticks = ticks_in(*source);
+    ASSERT_EQ(ticks.size(), 5U);
+    EXPECT_EQ(ticks[2].left, 10'000);
+    EXPECT_EQ(ticks[2].right, 110'000);
+    EXPECT_THAT(skipped_in(*source), ElementsAre("5 x joints without one that is a wheel"));
+  }
+}
+
+TEST(BagSource, WheelsAmongJointsAreToldByTheirNamesOrStated) {
+  struct Case {
+    std::vector<std::string> joints;
+    std::vector<std::string> statements;
+    std::string told;  ///< of the fact, or empty: the reason why none is taken
+  };
+  const std::vector<Case> cases{
+      {{"left_wheel", "right_wheel"}, {}, "left_wheel (left) and right_wheel (right)"},
+      {{"WheelR", "arm_left", "WheelL"}, {}, "WheelL (left) and WheelR (right)"},
+      {{"drivewhl_l_joint", "drivewhl_r_joint"},
+       {},
+       "drivewhl_l_joint (left) and drivewhl_r_joint (right)"},
+      {{"front_left_wheel", "front_right_wheel", "rear_left_wheel", "rear_right_wheel"},
+       {},
+       "rear_left_wheel (left) and rear_right_wheel (right)"},
+      {{"wheel_fl", "wheel_fr", "wheel_rl", "wheel_rr"},
+       {},
+       "wheel_rl (left) and wheel_rr (right)"},
+      {{"left_wheel_steering", "right_wheel_steering", "wheel_left", "wheel_right"},
+       {},
+       "wheel_left (left) and wheel_right (right)"},
+      {{"j1", "j2"}, {"wheels.left_joint=j2", "wheels.right_joint=j1"}, "j2 (left) and j1 (right)"},
+      {{"j1", "j2"}, {}, ""},
+      {{"wheel_1_left", "wheel_2_left", "wheel_1_right", "wheel_2_right"}, {}, ""},
+      {{"elbow_left", "elbow_right"}, {}, ""},
+      {{"left_wheel", "right_wheel"}, {"wheels.left_joint=none_such"}, ""},
+  };
+  const TemporaryFolder folder;
+  for (const Case& one : cases) {
+    write_bag_with_joints(folder / "a.bag", Wire::kRos1, {one.joints});
+    const auto source = open(folder / "a.bag", one.statements);
+    if (one.told.empty()) {
+      EXPECT_EQ(source->info().rig.first(sensors::SensorKind::kWheels), nullptr);
+      EXPECT_THAT(
+          topic_in(*source, "/joint_states").why,
+          HasSubstr("no left and right wheel can be told among its joints (" + one.joints.front()));
+    } else {
+      EXPECT_THAT(fact_value(*source, "pulses of /joint_states"), HasSubstr(one.told));
+      EXPECT_THAT(fact_reason(*source, "pulses of /joint_states"), HasSubstr("wheels.radius_m"));
+    }
+  }
+  write_bag_with_joints(folder / "a.bag", Wire::kRos1, {{"left_wheel", "right_wheel"}}, false);
+  EXPECT_EQ(topic_in(*open(folder / "a.bag"), "/joint_states").why,
+            "joints without the angle of a wheel");
+}
+
+TEST(BagSource, TypesThatSomebodyMayExpectAreListedWithTheReason) {
+  const TemporaryFolder folder;
+  std::vector<MadeMessage> messages = vehicle(Wire::kRos1);
+  for (const char* type :
+       {"sensor_msgs/LaserScan", "point_cloud_interfaces/CompressedPointCloud2"}) {
+    messages.push_back({std::string("/of/") + type, type, kStart, "abc"});
+  }
+  write_ros1_bag(folder / "a.bag", messages);
+  const auto source = open(folder / "a.bag");
+  EXPECT_THAT(topic_in(*source, "/of/sensor_msgs/LaserScan").why,
+              HasSubstr("a laser that scans one plane"));
+  EXPECT_THAT(topic_in(*source, "/of/point_cloud_interfaces/CompressedPointCloud2").why,
+              HasSubstr("makes PointCloud2"));
+}
+
 TEST(BagSource, GoesBackToABookmark) {
   const TemporaryFolder folder;
   write_ros1_bag(folder / "a.bag", vehicle(Wire::kRos1), {"lz4", 7, true, true, true});

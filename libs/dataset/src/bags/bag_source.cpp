@@ -25,12 +25,10 @@
 #include "captures/packet_tally.hpp"
 #include "point_clouds/point_fields.hpp"
 #include "point_clouds/point_statements.hpp"
-#include "recording/arrival_watch.hpp"
+#include "recording/arrival_queue.hpp"
 #include "recording/folder_opening.hpp"
 #include "recording/measurement_statements.hpp"
 #include "recording/profile_choice.hpp"
-#include "recording/reorder_window.hpp"
-#include "recording/stamp_order.hpp"
 #include "recording/unused_files.hpp"
 
 namespace traverse::dataset {
@@ -54,12 +52,8 @@ fs::path bag_sidecar(const fs::path& path) {
 
 struct BagBookmark : Bookmark {
   std::shared_ptr<const bags::Position> position;
-  ArrivalWatch watch;
-  ReorderWindow window;
-  StampOrder order;
-  SkippedRecords skipped;
+  ArrivalQueue queue;
   StatedMeasurements stated;
-  bool at_end = false;
 
   explicit BagBookmark(StatedMeasurements stated_now) : stated(std::move(stated_now)) {}
 };
@@ -76,7 +70,7 @@ class BagSource : public Source {
                            fmt::format("{} of {} topics", container_->contents().messages,
                                        container_->contents().channels.size()),
                            container_->contents().how});
-    topics_ = peek_topics(*container_);
+    topics_ = peek_topics(*container_, statements_->wheel_joints);
     ouster_ = ouster_of_bag(*container_, topics_, statements_, path_);
     if (ouster_) note_ouster(*ouster_, info_.facts);
     peek_packets(*container_, ouster_, topics_);
@@ -97,19 +91,12 @@ class BagSource : public Source {
   }
 
   const RecordingInfo& info() const override { return info_; }
-  const SkippedRecords& skipped() const override { return skipped_; }
+  const SkippedRecords& skipped() const override { return queue_.skipped(); }
   const std::optional<Reference>& reference() const override { return reference_; }
   std::optional<double> share_read() const override { return container_->share_read(); }
 
   std::optional<Measurement> next() override {
-    for (;;) {
-      while (auto entry = window_.pop(at_end_)) {
-        if (order_.accept(entry->measurement)) return std::move(entry->measurement);
-        skipped_.add(StampOrder::kFault, entry->place);
-      }
-      if (at_end_) return std::nullopt;
-      read_message();
-    }
+    return queue_.next([&] { read_message(); });
   }
 
   void rewind() override {
@@ -120,11 +107,7 @@ class BagSource : public Source {
     lidars_ = packets::PacketLidars(ouster_ ? std::optional(ouster_->metadata) : std::nullopt,
                                     chosen_.lidar ? topics_[*chosen_.lidar].topic : "lidar");
     tally_ = {};
-    watch_ = {};
-    window_ = {};
-    order_ = {};
-    skipped_ = {};
-    at_end_ = false;
+    queue_ = ArrivalQueue();
   }
 
   std::shared_ptr<const Bookmark> bookmark() const override {
@@ -132,11 +115,7 @@ class BagSource : public Source {
     if (takes_packets()) return nullptr;
     auto here = std::make_shared<BagBookmark>(stated_);
     here->position = container_->position();
-    here->watch = watch_;
-    here->window = window_;
-    here->order = order_;
-    here->skipped = skipped_;
-    here->at_end = at_end_;
+    here->queue = queue_;
     return here;
   }
 
@@ -144,11 +123,7 @@ class BagSource : public Source {
     const auto& there = dynamic_cast<const BagBookmark&>(bookmark);
     container_->return_to(*there.position);
     stated_ = there.stated;
-    watch_ = there.watch;
-    window_ = there.window;
-    order_ = there.order;
-    skipped_ = there.skipped;
-    at_end_ = there.at_end;
+    queue_ = there.queue;
   }
 
  private:
@@ -194,6 +169,7 @@ class BagSource : public Source {
                                                 : mounting.place(kind, peeked);
       info_.rig.sensors.push_back({label, kind, T_body_sensor, std::nullopt});
       apply_vehicle(statements_, info_.rig.sensors.back());
+      if (peeked.wheels) measure_wheels(peeked, info_.rig.sensors.back());
       if (kind == SensorKind::kLidar) {
         if (profile_.profile.name == sensors::LidarProfile().name) profile_.profile.name = label;
         info_.rig.sensors.back().lidar = profile_.profile;
@@ -209,6 +185,23 @@ class BagSource : public Source {
     add(chosen_.imu, SensorKind::kImu);
     add(chosen_.gnss, SensorKind::kGnss);
     add(chosen_.wheels, SensorKind::kWheels);
+  }
+
+  /// Says what the pulses of wheels are whose angles are known.
+  void measure_wheels(const PeekedTopic& topic, sensors::MountedSensor& wheels) {
+    const double radius_m = statements_->wheel_joints.radius_m;
+    std::string reason = "vehicle.wheels.left_m_per_pulse, right_m_per_pulse are stated";
+    if (!wheels.encoder && radius_m > 0) {
+      wheels.encoder = {radius_m / kPulsesPerRadian, radius_m / kPulsesPerRadian};
+      reason = fmt::format("wheels.radius_m={:g}, {}", radius_m,
+                           statements_.origin("wheels.radius_m").value_or(""));
+    } else if (!wheels.encoder) {
+      reason = "wheels.radius_m states how far a radian is; until then it is not known";
+    }
+    info_.facts.push_back({"pulses of " + topic.topic,
+                           fmt::format("{:g} a radian of {} (left) and {} (right)",
+                                       kPulsesPerRadian, topic.wheels->left, topic.wheels->right),
+                           reason});
   }
 
   void learn_from_packets(const OpenOptions& options) {
@@ -322,18 +315,18 @@ class BagSource : public Source {
   void read_message() {
     const auto message = container_->next();
     if (!message) {
-      at_end_ = true;
       if (takes_packets()) {
         const std::string place = "the end";
         lidars_.finish(packets_to(place));
-        tally_.tell(lidars_, place, skipped_);
+        tally_.tell(lidars_, place, queue_.skipped());
         note_packets(lidars_, info_.facts);
       }
-      watch_.finish();
-      take_decided();
+      queue_.finish();
+      queue_.note_steps(info_.facts);
       for (const auto& [reason, loss] : container_->losses().by_reason()) {
         for (std::size_t i = 0; i < loss.count; ++i) {
-          skipped_.add(reason, loss.first_places[std::min(i, loss.first_places.size() - 1)]);
+          queue_.skipped().add(reason,
+                               loss.first_places[std::min(i, loss.first_places.size() - 1)]);
         }
       }
       return;
@@ -350,15 +343,16 @@ class BagSource : public Source {
       if (holds_packets(topic)) {
         add_packets(topic, *message, place());
       } else if (auto measurement = measurement_of(topic, known->second, *message)) {
-        watch_.push({std::move(*measurement), place()});
-        take_decided();
+        queue_.push(std::move(*measurement), place());
+        queue_.note_steps(info_.facts);
       }
     } catch (const bags::BadMessage& error) {
-      skipped_.add(error.what(), place());
+      queue_.skipped().add(error.what(), place());
     } catch (const UnusableMessage& error) {
-      skipped_.add(error.what(), place());
+      queue_.skipped().add(error.what(), place());
     } catch (const InputError& error) {  // of a cloud whose fields are others than before
-      skipped_.add(fmt::format("expected {}, found {}", error.expected(), error.found()), place());
+      queue_.skipped().add(fmt::format("expected {}, found {}", error.expected(), error.found()),
+                           place());
     }
   }
 
@@ -369,8 +363,8 @@ class BagSource : public Source {
     for_each_packet(value, Stamp{message.log_time_ns}, [&](packets::Bytes packet, Stamp arrival) {
       lidars_.add(topic.topic, packet, arrival, sink);
     });
-    tally_.tell(lidars_, place, skipped_);
-    take_decided();
+    tally_.tell(lidars_, place, queue_.skipped());
+    queue_.note_steps(info_.facts);
   }
 
   /// What packets give, with the labels of their topics. \param place must outlive it
@@ -378,22 +372,23 @@ class BagSource : public Source {
     return [this, &place](packets::PacketMeasurement&& found) {
       Measurement& measurement = found.measurement;
       if (std::holds_alternative<sensors::GnssFix>(measurement)) {
-        skipped_.add("fix of a position packet, which a bag's lidar does not give", place);
+        queue_.skipped().add("fix of a position packet, which a bag's lidar does not give", place);
         return;
       }
       if (auto* sample = std::get_if<sensors::ImuSample>(&measurement)) {
         const bool is_taken = chosen_.imu && topics_[*chosen_.imu].kind == TopicKind::kImuPackets;
         if (!is_taken) {
-          skipped_.add("reading of an Ouster's IMU among the packets of its returns", place);
+          queue_.skipped().add("reading of an Ouster's IMU among the packets of its returns",
+                               place);
           return;
         }
         sample->sensor = labels_.at(*chosen_.imu);
         if (!stated_.apply(*sample)) {
-          skipped_.add("increment before which there is no reading", place);
+          queue_.skipped().add("increment before which there is no reading", place);
           return;
         }
       }
-      watch_.push({std::move(measurement), place});
+      queue_.push(std::move(measurement), place);
     };
   }
 
@@ -434,20 +429,14 @@ class BagSource : public Source {
         odometry.sensor = label;
         return odometry;
       }
+      case TopicKind::kJoints: {
+        sensors::WheelOdometry odometry = wheel_angles_of(value, *topic.wheels);
+        odometry.stamp = stamp;
+        odometry.sensor = label;
+        return odometry;
+      }
       default:
         return std::nullopt;
-    }
-  }
-
-  void take_decided() {
-    for (auto& rejected : watch_.take_rejected()) skipped_.add(rejected.fault, rejected.place);
-    for (auto& entry : watch_.take_accepted()) window_.push(std::move(entry));
-    for (Fact& step : watch_.take_steps()) {
-      const bool is_new =  // when the recording is not read once more
-          std::none_of(info_.facts.begin(), info_.facts.end(), [&](const Fact& fact) {
-            return fact.name == step.name && fact.value == step.value;
-          });
-      if (is_new) info_.facts.push_back(std::move(step));
     }
   }
 
@@ -467,11 +456,7 @@ class BagSource : public Source {
   StatedMeasurements stated_;
   packets::PacketLidars lidars_;
   PacketTally tally_;
-  ArrivalWatch watch_;
-  ReorderWindow window_;
-  StampOrder order_;
-  SkippedRecords skipped_;
-  bool at_end_ = false;
+  ArrivalQueue queue_;
 };
 
 }  // namespace

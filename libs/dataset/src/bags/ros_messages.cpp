@@ -21,7 +21,7 @@ using geometry::Stamp;
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, TopicKind>, 24> kTypes{{
+constexpr std::array<std::pair<std::string_view, TopicKind>, 25> kTypes{{
     {"sensor_msgs/PointCloud2", TopicKind::kCloud},
     {"livox_ros_driver/CustomMsg", TopicKind::kCloud},
     {"livox_ros_driver2/CustomMsg", TopicKind::kCloud},
@@ -42,10 +42,28 @@ constexpr std::array<std::pair<std::string_view, TopicKind>, 24> kTypes{{
     {"nav_msgs/Odometry", TopicKind::kOdometry},
     {"geometry_msgs/TwistStamped", TopicKind::kTwist},
     {"geometry_msgs/TwistWithCovarianceStamped", TopicKind::kTwist},
+    {"sensor_msgs/JointState", TopicKind::kJoints},
     {"geometry_msgs/PoseStamped", TopicKind::kPose},
     {"geometry_msgs/PoseWithCovarianceStamped", TopicKind::kPose},
     {"tf2_msgs/TFMessage", TopicKind::kTransforms},
     {"tf/tfMessage", TopicKind::kTransforms},
+}};
+
+constexpr std::string_view kPlanar =
+    "a laser that scans one plane: a trajectory in space needs a lidar with several rings";
+constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kUnusedTypes{{
+    {"sensor_msgs/LaserScan", kPlanar},
+    {"sensor_msgs/MultiEchoLaserScan", kPlanar},
+    {"sensor_msgs/PointCloud",
+     "the cloud that PointCloud2 replaced: point_cloud_converter of ROS makes one of the other"},
+    {"point_cloud_interfaces/CompressedPointCloud2",
+     "packed clouds: point_cloud_transport's `republish` with raw as the output makes PointCloud2"},
+    {"draco_point_cloud_transport/CompressedPointCloud2",
+     "packed clouds: point_cloud_transport's `republish` with raw as the output makes PointCloud2"},
+    {"geometry_msgs/Pose", "poses without stamps"},
+    {"geometry_msgs/Twist", "velocities without stamps: commands to a vehicle, most often"},
+    {"sensor_msgs/Image", "pictures"},
+    {"sensor_msgs/CompressedImage", "pictures"},
 }};
 
 /// The codes of sensor_msgs/PointField.
@@ -231,6 +249,13 @@ TopicKind kind_of_type(std::string_view type) {
     if (known == type) return kind;
   }
   return TopicKind::kOther;
+}
+
+std::string_view why_unused(std::string_view type) {
+  for (const auto& [known, why] : kUnusedTypes) {
+    if (known == type) return why;
+  }
+  return {};
 }
 
 std::optional<Stamp> header_stamp(const MessageValue& message) {

@@ -26,6 +26,7 @@ enum class TopicKind {
   kGnss,
   kOdometry,  ///< poses of a vehicle: its wheels', or somebody's estimate
   kTwist,     ///< velocities of a vehicle
+  kJoints,    ///< angles of joints, which may be a vehicle's wheels
   kPose,      ///< poses without velocities
   kTransforms,
   kOther,
@@ -33,6 +34,10 @@ enum class TopicKind {
 
 /// \param type "sensor_msgs/PointCloud2"
 TopicKind kind_of_type(std::string_view type);
+
+/// Why nothing is made of messages of a type that somebody may expect to be read; empty: there is
+/// no more to say.
+std::string_view why_unused(std::string_view type);
 
 /// A message that follows its definition but cannot be used.
 class UnusableMessage : public std::runtime_error {

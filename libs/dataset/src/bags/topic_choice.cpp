@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "traverse/files/input_error.hpp"
 
@@ -22,10 +23,34 @@ constexpr std::size_t kPeekedMessages = 5000;
 constexpr std::uint64_t kPeekedBytes = 64 << 20;
 constexpr std::size_t kMostTransforms = 20'000;
 constexpr std::size_t kMovingLooked = 2000;
+// They stand among everything else, which is unpacked with them.
+constexpr std::int64_t kMovingLooked_ns = 10'000'000'000;
 
 bool is_static(const PeekedTopic& topic) { return topic.topic.ends_with("tf_static"); }
 
-void look_at(PeekedTopic& topic, const bags::MessageValue& message) {
+/// Publishers of joints may be several on one topic: an arm's, and the wheels'.
+constexpr std::size_t kPeekedJoints = 20;
+
+void look_at_joints(PeekedTopic& topic, const bags::MessageValue& message,
+                    const WheelJointStatements& stated) {
+  constexpr std::size_t kMostNames = 8;
+  std::vector<std::string> names = joints_in(message);
+  topic.wheels = wheel_joints_of(names, stated);
+  topic.fault.clear();
+  if (topic.wheels) {
+    wheel_angles_of(message, *topic.wheels);
+    return;
+  }
+  const bool are_more = names.size() > kMostNames;
+  names.resize(std::min(names.size(), kMostNames));
+  topic.fault = fmt::format(
+      "no left and right wheel can be told among its joints ({}{}); wheels.left_joint=... and "
+      "wheels.right_joint=... state them",
+      fmt::join(names, ", "), are_more ? ", ..." : "");
+}
+
+void look_at(PeekedTopic& topic, const bags::MessageValue& message,
+             const WheelJointStatements& stated) {
   if (topic.kind == TopicKind::kTransforms) return;
   topic.frame = FrameTree::name_of(header_frame(message));
   const auto stamp = header_stamp(message);
@@ -44,6 +69,9 @@ void look_at(PeekedTopic& topic, const bags::MessageValue& message) {
     case TopicKind::kImu:
       imu_sample_of(message);
       break;
+    case TopicKind::kJoints:
+      look_at_joints(topic, message, stated);
+      break;
     default:
       break;
   }
@@ -51,7 +79,8 @@ void look_at(PeekedTopic& topic, const bags::MessageValue& message) {
 
 }  // namespace
 
-std::vector<PeekedTopic> peek_topics(bags::MessageContainer& container) {
+std::vector<PeekedTopic> peek_topics(bags::MessageContainer& container,
+                                     const WheelJointStatements& wheels) {
   const bags::Contents& contents = container.contents();
   std::vector<PeekedTopic> topics;
   std::vector<std::size_t> looked_for;
@@ -79,6 +108,7 @@ std::vector<PeekedTopic> peek_topics(bags::MessageContainer& container) {
   }
   container.begin(looked_for);
   std::size_t left = looked_for.size();
+  std::vector<std::size_t> looks(topics.size(), 0);
   std::uint64_t bytes = 0;
   for (std::size_t count = 0; left > 0 && count < kPeekedMessages && bytes < kPeekedBytes;
        ++count) {
@@ -86,11 +116,15 @@ std::vector<PeekedTopic> peek_topics(bags::MessageContainer& container) {
     if (!message) break;
     bytes += message->bytes.size();
     PeekedTopic& topic = topics[message->channel];
-    if (topic.was_seen) continue;
+    const bool is_over = topic.kind == TopicKind::kJoints
+                             ? topic.wheels || looks[message->channel] == kPeekedJoints
+                             : topic.was_seen;
+    if (is_over) continue;
+    if (!topic.was_seen) --left;
     topic.was_seen = true;
-    --left;
+    ++looks[message->channel];
     try {
-      look_at(topic, topic.reader->read(message->bytes));
+      look_at(topic, topic.reader->read(message->bytes), wheels);
     } catch (const bags::BadMessage& error) {
       topic.fault = error.what();
     } catch (const UnusableMessage& error) {
@@ -189,9 +223,12 @@ FrameTree read_frames(bags::MessageContainer& container, const std::vector<Peeke
     if (channels.empty()) continue;
     container.begin(channels);
     const std::size_t most = are_static ? kMostTransforms : kMovingLooked;
+    std::optional<std::int64_t> first_ns;
     for (std::size_t count = 0; count < most; ++count) {
       const auto message = container.next();
       if (!message) break;
+      if (!first_ns) first_ns = message->log_time_ns;
+      if (!are_static && message->log_time_ns - *first_ns > kMovingLooked_ns) break;
       try {
         for_each_transform(topics[message->channel].reader->read(message->bytes),
                            [&](const std::string& parent, const std::string& child,
@@ -374,19 +411,25 @@ ChosenTopics choose_topics(const std::vector<PeekedTopic>& topics, const FrameTr
                         told_count},
                        topics, statements, info);
   // An odometry may be the answer that is looked for; that of wheels says so in its name.
-  chosen.wheels = choose({"wheels.topic",
-                          "wheels",
-                          {TopicKind::kOdometry, TopicKind::kTwist},
-                          [](const PeekedTopic& topic) -> std::string {
-                            if (topic.topic.find("wheel") != std::string::npos)
-                              return not_seen(topic);
-                            return fmt::format(
-                                "nothing says that it comes from wheels; wheels.topic={} takes it",
-                                topic.topic);
-                          },
-                          by_count,
-                          told_count},
-                         topics, statements, info);
+  chosen.wheels = choose(
+      {"wheels.topic",
+       "wheels",
+       {TopicKind::kOdometry, TopicKind::kTwist, TopicKind::kJoints},
+       [](const PeekedTopic& topic) -> std::string {
+         if (topic.topic.find("wheel") != std::string::npos || topic.kind == TopicKind::kJoints) {
+           return not_seen(topic);
+         }
+         return fmt::format("nothing says that it comes from wheels; wheels.topic={} takes it",
+                            topic.topic);
+       },
+       [&](const PeekedTopic& a, const PeekedTopic& b) {
+         // A speed says how far; angles need the wheels' radius.
+         const bool is_a = a.kind != TopicKind::kJoints;
+         const bool is_b = b.kind != TopicKind::kJoints;
+         return is_a != is_b ? is_a : by_count(a, b);
+       },
+       told_count},
+      topics, statements, info);
   chosen.reference = choose({"reference.topic",
                              "reference",
                              {TopicKind::kPose, TopicKind::kOdometry, TopicKind::kTransforms},
@@ -399,7 +442,9 @@ ChosenTopics choose_topics(const std::vector<PeekedTopic>& topics, const FrameTr
                              told_count},
                             topics, statements, info);
   for (TopicInfo& topic : info.topics) {
-    if (topic.use.empty() && topic.why.empty()) topic.why = "no type that is used";
+    if (!topic.use.empty() || !topic.why.empty()) continue;
+    const std::string_view why = why_unused(topic.type);
+    topic.why = why.empty() ? "no type that is used" : std::string(why);
   }
   return chosen;
 }

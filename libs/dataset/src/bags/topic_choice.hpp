@@ -14,6 +14,7 @@
 #include "bags/frame_tree.hpp"
 #include "bags/packet_topics.hpp"
 #include "bags/ros_messages.hpp"
+#include "bags/wheel_joints.hpp"
 #include "captures/ouster_choice.hpp"
 #include "recording/statements.hpp"
 
@@ -36,6 +37,7 @@ struct PeekedTopic {
   bool has_times = false;              ///< of its points
   bool has_rings = false;              ///< of its points
   std::optional<PacketTopic> packets;  ///< of kPackets: what they are of
+  std::optional<WheelJoints> wheels;   ///< of kJoints
 };
 
 /// The topics of a recording that are used, as indices.
@@ -49,7 +51,8 @@ struct ChosenTopics {
 
 /// All topics of `container`, looked at as far as the first message of each that could be a
 /// sensor's is found soon.
-std::vector<PeekedTopic> peek_topics(bags::MessageContainer& container);
+std::vector<PeekedTopic> peek_topics(bags::MessageContainer& container,
+                                     const WheelJointStatements& wheels);
 
 /// Looks into the topics of packets for the lidar that each is of, and sets what was seen of them;
 /// one of an IMU becomes kImuPackets. \param ouster whose packets may be among them

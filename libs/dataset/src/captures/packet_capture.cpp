@@ -14,9 +14,8 @@
 
 #include "captures/ouster_choice.hpp"
 #include "captures/packet_tally.hpp"
+#include "recording/arrival_queue.hpp"
 #include "recording/folder_opening.hpp"
-#include "recording/reorder_window.hpp"
-#include "recording/stamp_order.hpp"
 #include "recording/unused_files.hpp"
 
 namespace traverse::dataset {
@@ -55,7 +54,7 @@ class CaptureSource : public Source {
   }
 
   const RecordingInfo& info() const override { return info_; }
-  const SkippedRecords& skipped() const override { return skipped_; }
+  const SkippedRecords& skipped() const override { return queue_.skipped(); }
   const std::optional<Reference>& reference() const override { return reference_; }
   std::optional<double> share_read() const override {
     const auto size = static_cast<double>(fs::file_size(file_));
@@ -63,34 +62,24 @@ class CaptureSource : public Source {
   }
 
   std::optional<Measurement> next() override {
-    for (;;) {
-      while (auto entry = window_.pop(at_end_)) {
-        if (order_.accept(entry->measurement)) return std::move(entry->measurement);
-        skipped_.add(StampOrder::kFault, entry->place);
-      }
-      if (at_end_) return std::nullopt;
-      read_datagram();
-    }
+    return queue_.next([&] { read_datagram(); });
   }
 
   void rewind() override {
     capture_.emplace(file_);
     lidars_ = PacketLidars(ouster_ ? std::optional(ouster_->metadata) : std::nullopt);
-    window_ = {};
-    order_ = {};
-    skipped_ = {};
+    queue_ = ArrivalQueue(ArrivalQueue::Clock::kSteady);  // sensors' clocks are followed below it
     tally_ = {};
     cut_ = 0;
     incomplete_ = 0;
     datagrams_ = 0;
-    at_end_ = false;
   }
 
  private:
   void read_datagram() {
     const std::string place = fmt::format("datagram {}", datagrams_ + 1);
     const PacketLidars::Sink sink = [this, &place](PacketMeasurement&& found) {
-      window_.push({std::move(found.measurement), place});
+      queue_.push(std::move(found.measurement), place);
     };
     if (const auto datagram = capture_->next()) {
       ++datagrams_;
@@ -98,18 +87,18 @@ class CaptureSource : public Source {
       stream_ += fmt::format(" {}", datagram->target_port);
       lidars_.add(stream_, datagram->payload, datagram->arrival, sink);
     } else {
-      at_end_ = true;
       lidars_.finish(sink);
+      queue_.finish();
       if (!capture_->fault().empty()) {
-        skipped_.add("the rest of the capture cannot be read: " + capture_->fault(), place);
+        queue_.skipped().add("the rest of the capture cannot be read: " + capture_->fault(), place);
       }
       note_packets(lidars_, info_.facts);
     }
-    tally_.tell(lidars_, place, skipped_);
+    tally_.tell(lidars_, place, queue_.skipped());
     const auto& frames = capture_->counts();
-    tell_skipped("frame that was cut short", frames.cut, cut_, place, skipped_);
+    tell_skipped("frame that was cut short", frames.cut, cut_, place, queue_.skipped());
     tell_skipped("datagram of which fragments are missing", frames.incomplete, incomplete_, place,
-                 skipped_);
+                 queue_.skipped());
   }
 
   /// Reads the beginning, so that info() knows the sensors.
@@ -205,14 +194,11 @@ class CaptureSource : public Source {
   std::optional<packets::UdpCapture> capture_;
   PacketLidars lidars_;
   std::string stream_;
-  ReorderWindow window_;
-  StampOrder order_;
-  SkippedRecords skipped_;
+  ArrivalQueue queue_;
   PacketTally tally_;
   std::size_t cut_ = 0;         ///< frames that were told
   std::size_t incomplete_ = 0;  ///< datagrams that were told
   std::size_t datagrams_ = 0;
-  bool at_end_ = false;
 };
 
 }  // namespace

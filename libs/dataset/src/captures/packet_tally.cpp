@@ -1,22 +1,10 @@
 #include "captures/packet_tally.hpp"
 
-#include <algorithm>
-#include <utility>
-
 #include <fmt/format.h>
 
+#include "recording/note_once.hpp"
+
 namespace traverse::dataset {
-
-namespace {
-
-void note_once(Fact fact, std::vector<Fact>& facts) {
-  const bool is_new = std::none_of(facts.begin(), facts.end(), [&](const Fact& old) {
-    return old.name == fact.name && old.value == fact.value;
-  });
-  if (is_new) facts.push_back(std::move(fact));
-}
-
-}  // namespace
 
 void tell_skipped(const char* reason, std::size_t count, std::size_t& told,
                   const std::string& place, SkippedRecords& skipped) {

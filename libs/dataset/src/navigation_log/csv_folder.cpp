@@ -21,6 +21,7 @@
 #include "navigation_log/tables_beside.hpp"
 #include "recording/folder_opening.hpp"
 #include "recording/listed_source.hpp"
+#include "recording/note_once.hpp"
 #include "recording/stamp_sequence.hpp"
 #include "recording/unused_files.hpp"
 #include "recording/vehicle_statements.hpp"
@@ -184,12 +185,7 @@ class CsvRecording {
 
   /// Facts that another stream of the same file has not told already.
   void add_new(std::vector<Fact> told) {
-    for (Fact& fact : told) {
-      const bool is_new = std::none_of(facts.begin(), facts.end(), [&](const Fact& known) {
-        return known.name == fact.name && known.value == fact.value;
-      });
-      if (is_new) facts.push_back(std::move(fact));
-    }
+    for (Fact& fact : told) note_once(std::move(fact), facts);
   }
 
   /// Makes the stamps of each file grow, and puts them on their sensor's clock where that is

@@ -11,10 +11,8 @@
 
 #include "rawlog/rawlog_converter.hpp"
 #include "rawlog/rawlog_sensors.hpp"
-#include "recording/arrival_watch.hpp"
+#include "recording/arrival_queue.hpp"
 #include "recording/folder_opening.hpp"
-#include "recording/reorder_window.hpp"
-#include "recording/stamp_order.hpp"
 #include "recording/unused_files.hpp"
 
 namespace traverse::dataset {
@@ -46,11 +44,7 @@ std::string external_folder_of(const fs::path& file) {
 struct RawlogBookmark : Bookmark {
   mrpt_io::RawlogReader::Position position;
   RawlogConverter::State converter;
-  ArrivalWatch watch;
-  ReorderWindow window;
-  StampOrder order;
-  SkippedRecords skipped;
-  bool at_end = false;
+  ArrivalQueue queue;
 };
 
 class RawlogSource : public Source {
@@ -76,40 +70,25 @@ class RawlogSource : public Source {
   }
 
   const RecordingInfo& info() const override { return info_; }
-  const SkippedRecords& skipped() const override { return skipped_; }
+  const SkippedRecords& skipped() const override { return queue_.skipped(); }
   const std::optional<Reference>& reference() const override { return reference_; }
   std::optional<double> share_read() const override { return reader_->share_read(); }
 
   std::optional<Measurement> next() override {
-    for (;;) {
-      while (auto entry = window_.pop(at_end_)) {
-        if (order_.accept(entry->measurement)) return std::move(entry->measurement);
-        skipped_.add(StampOrder::kFault, entry->place);
-      }
-      if (at_end_) return std::nullopt;
-      read_record();
-    }
+    return queue_.next([&] { read_record(); });
   }
 
   void rewind() override {
     reader_ = std::make_unique<mrpt_io::RawlogReader>(file_);
     converter_.emplace(sensors_, external_folder_);
-    watch_ = {};
-    window_ = {};
-    order_ = {};
-    skipped_ = {};
-    at_end_ = false;
+    queue_ = ArrivalQueue();
   }
 
   std::shared_ptr<const Bookmark> bookmark() const override {
     auto here = std::make_shared<RawlogBookmark>();
     here->position = reader_->position();
     here->converter = converter_->state();
-    here->watch = watch_;
-    here->window = window_;
-    here->order = order_;
-    here->skipped = skipped_;
-    here->at_end = at_end_;
+    here->queue = queue_;
     return here;
   }
 
@@ -117,54 +96,36 @@ class RawlogSource : public Source {
     const auto& there = dynamic_cast<const RawlogBookmark&>(bookmark);
     reader_->return_to(there.position);
     converter_->set_state(there.converter);
-    watch_ = there.watch;
-    window_ = there.window;
-    order_ = there.order;
-    skipped_ = there.skipped;
-    at_end_ = there.at_end;
+    queue_ = there.queue;
   }
 
  private:
   void read_record() {
     const auto record = reader_->next();
     if (!record) {
-      at_end_ = true;
-      watch_.finish();
-      take_decided();
-      if (reader_->fault()) skipped_.add(reader_->fault()->reason, reader_->fault()->place);
+      queue_.finish();
+      queue_.note_steps(info_.facts);
+      if (reader_->fault()) queue_.skipped().add(reader_->fault()->reason, reader_->fault()->place);
       return;
     }
     ConvertedRecord converted = converter_->convert(*record);
-    for (auto& skipped : converted.skipped) skipped_.add(skipped.reason, skipped.place);
+    for (auto& skipped : converted.skipped) queue_.skipped().add(skipped.reason, skipped.place);
     for (Measurement& measurement : converted.measurements) {
-      watch_.push({std::move(measurement), record->place});
+      queue_.push(std::move(measurement), record->place);
     }
-    take_decided();
-  }
-
-  void take_decided() {
-    for (auto& rejected : watch_.take_rejected()) skipped_.add(rejected.fault, rejected.place);
-    for (auto& entry : watch_.take_accepted()) window_.push(std::move(entry));
-    for (Fact& step : watch_.take_steps()) {
-      const bool is_new =  // when the recording is not read once more
-          std::none_of(info_.facts.begin(), info_.facts.end(), [&](const Fact& fact) {
-            return fact.name == step.name && fact.value == step.value;
-          });
-      if (is_new) info_.facts.push_back(std::move(step));
-    }
+    queue_.note_steps(info_.facts);
   }
 
   /// Reads the beginning, so that info() knows the sensors.
   void preview() {
-    while (!at_end_ && reader_->bytes_read() < kPreviewBytes &&
+    while (!queue_.is_finished() && reader_->bytes_read() < kPreviewBytes &&
            reader_->records_read() < kPreviewRecords) {
       read_record();
-      while (window_.pop(true)) {
-      }
+      queue_.drop_waiting();
     }
-    if (at_end_ && info_.rig.sensors.empty()) {
+    if (queue_.is_finished() && info_.rig.sensors.empty()) {
       std::string found = "none of these";
-      for (const auto& [reason, count] : skipped_.by_reason()) {
+      for (const auto& [reason, count] : queue_.skipped().by_reason()) {
         found += fmt::format("; {} x {}", count.count, reason);
       }
       throw files::InputError(file_, files::Place::whole_file(),
@@ -189,11 +150,7 @@ class RawlogSource : public Source {
 
   std::unique_ptr<mrpt_io::RawlogReader> reader_;
   std::optional<RawlogConverter> converter_;
-  ArrivalWatch watch_;
-  ReorderWindow window_;
-  StampOrder order_;
-  SkippedRecords skipped_;
-  bool at_end_ = false;
+  ArrivalQueue queue_;
 };
 
 }  // namespace

@@ -70,8 +70,10 @@ void bind(Binder& b, StatedValues& v) {
     bind(gnss, v.gnss);
     gnss.text("topic", v.topics.gnss, "of a bag");
   });
-  b.group("wheels", "wheel odometry",
-          [&](Binder& wheels) { wheels.text("topic", v.topics.wheels, "of a bag"); });
+  b.group("wheels", "wheel odometry", [&](Binder& wheels) {
+    wheels.text("topic", v.topics.wheels, "of a bag");
+    bind(wheels, v.wheel_joints);
+  });
   b.group("vehicle", "mounting of the sensors, and wheel odometry",
           [&](Binder& vehicle) { bind(vehicle, v.vehicle); });
   b.group("log", "format of a text log", [&](Binder& log) { bind(log, v.log); });

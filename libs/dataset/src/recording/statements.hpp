@@ -11,6 +11,7 @@
 #include "traverse/files/input_error.hpp"
 #include "traverse/sensors/lidar_profile.hpp"
 
+#include "bags/wheel_joint_statements.hpp"
 #include "navigation_log/log_statements.hpp"
 #include "point_clouds/bin_points.hpp"
 #include "point_clouds/point_statements.hpp"
@@ -58,6 +59,7 @@ struct StatedValues {
   LogStatements log;
   CsvStatements csv;
   TopicStatements topics;
+  WheelJointStatements wheel_joints;
 };
 
 void bind(config::Binder& binder, StatedValues& values);

@@ -34,7 +34,7 @@ namespace traverse::dataset {
 ///       frame: lidar                body | lidar | camera
 ///       topic: /ground_truth        of a bag, instead of a file
 ///       north_deg: 90               true north in the file's map, from x towards y; if known
-///     lidar: {topic: /points}       of a bag, as imu, gnss and wheels: a topic, or none
+///     wheels: {topic: /joint_states, radius_m: 0.1}   of a bag; lidar, imu, gnss: a topic or none
 ///     accept: gnss_late             contradictions (docs/contradictions.md) to go on with
 ///     point_unit_m: 0.001           metres that a 1 in a point's coordinates means
 ///     point_time_unit_s: 1e-6       seconds that a 1 in a point's time means; else from intervals
