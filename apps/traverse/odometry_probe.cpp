@@ -13,6 +13,7 @@ namespace traverse::app {
 OdometryProbe::OdometryProbe(const dataset::Source& source, plausibility::StreamChecks& checks)
     : checks_(checks) {
   if (source.info().rig.first(sensors::SensorKind::kLidar) == nullptr) return;
+  has_others_ = source.info().rig.sensors.size() > 1 || source.reference().has_value();
   pipeline::PresetRequest request;
   request.assignments = {"slam.use=false"};
   const pipeline::Preset preset = pipeline::load_preset(request, find_installed_files().share);
@@ -20,14 +21,13 @@ OdometryProbe::OdometryProbe(const dataset::Source& source, plausibility::Stream
 }
 
 void OdometryProbe::take(const sensors::Measurement& measurement) {
-  constexpr std::size_t kMaxFrames = 60;  // a few seconds' work
   if (!estimator_) return;
   try {
     for (const pipeline::PoseFrame& frame : estimator_->process(measurement)) {
       checks_.take_pose(frame.stamp, frame.T_map_body);
-      ++frames_;
+      path_.add(frame.T_map_body);
     }
-    if (frames_ >= kMaxFrames) estimator_.reset();
+    if (path_.is_enough(has_others_)) estimator_.reset();
   } catch (const std::exception&) {
     estimator_.reset();  // a run says why; what is in the recording is told all the same
   }
