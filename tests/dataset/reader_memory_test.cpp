@@ -25,6 +25,7 @@
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/text_file.hpp"
 
+#include "bags/bag_writers.hpp"
 #include "dataset/rawlog_maker.hpp"
 #include "temporary_folder.hpp"
 
@@ -404,6 +405,41 @@ TEST_F(ReaderMemory, Rawlogs) {
   map.insert(mrpt::poses::CPose3DPDFGaussian(), of_map);
   check("simple map, point cloud", "map", write("e.simplemap", with_count(map, kThere, kStated)),
         "more than the file holds");
+}
+
+/// Bags one after the other, each a chunk of 32 MB that is unpacked at once.
+TEST_F(ReaderMemory, BagsOfOneRecordingTakeTheMemoryOfOne) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  constexpr int kScansAFile = 8;
+  CloudMessage cloud;
+  cloud.fields = {{"x", 0}, {"y", 4}, {"z", 8}};
+  cloud.width = 1000;
+  cloud.point_step = 4000;  // what stands between its fields takes no room among the points
+  cloud.row_step = cloud.point_step * cloud.width;
+  cloud.data.assign(cloud.row_step, '\1');
+  std::int64_t ns = 1'700'000'000 * kSecond;
+  const auto write_bags = [&](const std::string& name, int files) {
+    fs::create_directories(folder_ / name);
+    for (int file = 0; file < files; ++file) {
+      std::vector<MadeMessage> messages;
+      for (int i = 0; i < kScansAFile; ++i, ns += kSecond / 10) {
+        messages.push_back({"/points", "sensor_msgs/PointCloud2", ns,
+                            cloud_message(Wire::kRos1, ns, "lidar", cloud)});
+      }
+      write_ros1_bag(folder_ / name / fmt::format("{}.bag", file), messages,
+                     {"lz4", kScansAFile, false, true, true});
+    }
+    return read_in_a_process("recording", folder_ / name);
+  };
+  const Reading one = write_bags("one", 1);
+  const Reading four = write_bags("four", 4);
+  fmt::print("bags of a chunk of 32 MB: {:.1f} MB, four of them {:.1f} MB\n", one.peak_mb,
+             four.peak_mb);
+  EXPECT_THAT(one.outcome, HasSubstr("8 measurements"));
+  EXPECT_THAT(four.outcome, HasSubstr("32 measurements"));
+#ifndef TRAVERSE_SANITIZED
+  EXPECT_LT(four.peak_mb, one.peak_mb + 50);
+#endif
 }
 
 }  // namespace
