@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "saturated_sum.hpp"
+
 namespace traverse::packets {
 
 namespace {
@@ -77,8 +79,8 @@ void PacketSweeps::add(Bytes packet, geometry::Stamp arrival, const Sink& sink) 
     if (after != 0) close(sink);
   }
   if (outline_.has_frame) frame_ = outline_.frame;
-  const bool pauses =
-      last_stamp_ && std::llabs(stamp.nanoseconds - last_stamp_->nanoseconds) > kPause_ns;
+  const bool pauses = last_stamp_ && std::llabs(saturated_difference(
+                                         stamp.nanoseconds, last_stamp_->nanoseconds)) > kPause_ns;
   if (is_step || pauses) {
     close(sink);
     last_turned_.reset();
@@ -89,12 +91,12 @@ void PacketSweeps::add(Bytes packet, geometry::Stamp arrival, const Sink& sink) 
     if (first == last) return;
     if (!is_open_) {
       is_open_ = true;
-      sweep_.scan.stamp = geometry::Stamp{stamp.nanoseconds + outline_.begin_ns[first]};
+      sweep_.scan.stamp =
+          geometry::Stamp{saturated_sum(stamp.nanoseconds, outline_.begin_ns[first])};
       sweep_.scan.sensor = label_;
       sweep_.scan.reserve(usual_points_ + usual_points_ / 16);
     }
-    const double zero_s =
-        static_cast<double>(stamp.nanoseconds - sweep_.scan.stamp.nanoseconds) * 1e-9;
+    const double zero_s = geometry::seconds_between(sweep_.scan.stamp, stamp);
     counts_.returns += decoder_->append(packet, outline_, first, last, zero_s, sweep_.scan);
   };
   std::size_t first = 0;

@@ -1,5 +1,6 @@
 #include "traverse/packets/udp_capture.hpp"
 
+#include <algorithm>
 #include <array>
 #include <dlfcn.h>
 #include <fstream>
@@ -104,8 +105,11 @@ std::optional<Datagram> UdpCapture::next() {
       ++state_->frames->counts().cut;
       continue;
     }
-    // With that precision the microseconds are nanoseconds.
-    const geometry::Stamp arrival{static_cast<std::int64_t>(header->ts.tv_sec) * 1'000'000'000 +
+    // With that precision the microseconds are nanoseconds. A .pcapng tells any 64 bits.
+    constexpr std::int64_t kFarthest_s = 9'000'000'000;
+    const std::int64_t seconds =
+        std::clamp(static_cast<std::int64_t>(header->ts.tv_sec), -kFarthest_s, kFarthest_s);
+    const geometry::Stamp arrival{seconds * 1'000'000'000 +
                                   static_cast<std::int64_t>(header->ts.tv_usec)};
     if (auto datagram = state_->frames->add({bytes, header->caplen}, arrival)) return datagram;
   }
