@@ -35,7 +35,8 @@ void GnssConstraint::constrain(FixedLagSmoother& smoother, const MapFix& told,
   if (options_.gate) judge_rejected(smoother, fix, first_sigma, frame, events);
 
   const bool as_pose = options_.form == GnssForm::kPose && fix.heading.has_value();
-  if (is_of_a_step(fix, frame.gnss_residual_enu)) {
+  const bool agrees = !contradicts(frame.gnss_residual_enu, fix.covariance);
+  if (is_in_step(frame.gnss_residual_enu) && !agrees) {
     take_loosely(smoother, fix, antenna, frame);
     ++events["fix after a step of the receiver, weighed by how far off it is"];
   } else if (as_pose && options_.level_pose) {
@@ -75,7 +76,7 @@ void GnssConstraint::constrain_last(FixedLagSmoother& smoother, const MapFix& fi
 void GnssConstraint::judge_rejected(FixedLagSmoother& smoother, MapFix& fix,
                                     const NavState::Tangent& first_sigma, NavFrame& frame,
                                     Events& events) {
-  if (rejected_.empty() || is_of_a_step(fix, frame.gnss_residual_enu)) return;
+  if (rejected_.empty() || is_in_step(frame.gnss_residual_enu)) return;
   RejectedFixes with_this = rejected_;
   with_this.add(fix.stamp, frame.gnss_residual_enu, fix.covariance);
   const auto line = with_this.line(patience_s(smoother.newest().v_map.norm()));
@@ -109,13 +110,12 @@ double GnssConstraint::patience_s(double speed_mps) const {
 }
 
 /// Whether those before were off at once by a decimetre or two, as of a receiver that goes over to
-/// float ambiguities, and this one does not agree with the estimate yet.
-bool GnssConstraint::is_of_a_step(const MapFix& fix, const Eigen::Vector3d& residual) const {
+/// float ambiguities.
+bool GnssConstraint::is_in_step(const Eigen::Vector3d& residual) const {
   constexpr double kLargest_m = 1;
   if (!options_.gate || !last_fix_ || rejected_.empty()) return false;
   if (geometry::seconds_between(*last_fix_, rejected_.first_stamp()) > kAtOnce_s) return false;
-  return rejected_.first_residual().norm() <= kLargest_m && residual.norm() <= kLargest_m &&
-         contradicts(residual, fix.covariance);
+  return rejected_.first_residual().norm() <= kLargest_m && residual.norm() <= kLargest_m;
 }
 
 /// As good as it is far off, and the better the longer: what one second of such fixes says they say

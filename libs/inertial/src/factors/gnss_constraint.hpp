@@ -47,7 +47,7 @@ class GnssConstraint {
   Eigen::Vector3d antenna_body_;
   /// How long rejected fixes have to agree with each other before they are believed.
   double patience_s(double speed_mps) const;
-  bool is_of_a_step(const MapFix& fix, const Eigen::Vector3d& residual) const;
+  bool is_in_step(const Eigen::Vector3d& residual) const;
   void take_loosely(FixedLagSmoother& smoother, const MapFix& fix, const AntennaFix& antenna,
                     NavFrame& frame) const;
 
