@@ -154,9 +154,9 @@ TEST(LidarSimulator, EveryInstalledProfileThatTellsItsFiringCanBeSimulated) {
   for (const auto& entry :
        std::filesystem::directory_iterator(std::string(TRAVERSE_SHARE_DIR) + "/sensors")) {
     const sensors::LidarProfile profile = sensors::load_lidar_profile(entry.path());
+    if (profile.firing.period_us == 0) continue;
     EXPECT_EQ(profile.elevations_deg.size(), static_cast<std::size_t>(profile.rings))
         << entry.path();
-    if (profile.firing.period_us == 0) continue;
     EXPECT_NO_THROW(lidar_in(town, profile)) << entry.path();
     ++count;
   }
