@@ -145,10 +145,11 @@ PacketKind OusterDecoder::outline(Bytes packet, PacketOutline& outline) {
     if (!is_valid(column)) continue;
     if (id >= metadata_.columns) return PacketKind::kDamaged;
     const auto ns = static_cast<std::int64_t>(u64_at(column + kTimestampAt));
+    if (ns < 0) return PacketKind::kDamaged;  // which has no difference to the others
     if (!has_time) outline.sensor_ns = ns;
     has_time = true;
     const std::int64_t after = ns - outline.sensor_ns;
-    if (ns < 0 || after < -1'000'000'000 || after > 1'000'000'000) return PacketKind::kDamaged;
+    if (after < -1'000'000'000 || after > 1'000'000'000) return PacketKind::kDamaged;
     outline.begin_ns[group] = static_cast<std::int32_t>(after);
   }
   return has_time ? PacketKind::kData : PacketKind::kOther;
