@@ -31,6 +31,8 @@ TEST(Nmea, GgaTellsTheAltitudeAboveTheEllipsoid) {
   ASSERT_TRUE(fix);
   EXPECT_NEAR(fix->latitude_deg, -48.1173, 1e-9);
   EXPECT_NEAR(*fix->altitude_m, 592.3, 1e-9);
+  ASSERT_TRUE(fix->covariance_enu);
+  EXPECT_NEAR((*fix->covariance_enu)(0, 0), 0.02 * 0.02, 1e-12) << "ambiguities are fixed";
   EXPECT_FALSE(fix->day);
 }
 
@@ -46,8 +48,11 @@ TEST(Nmea, WhatIsNoFixGivesNone) {
     bad.replace(bad.find(from), std::string(from).size(), to);
     EXPECT_FALSE(parse_nmea_fix(with_checksum(bad))) << bad;
   }
-  EXPECT_FALSE(parse_nmea_fix(
-      with_checksum("GPGGA,000001,4807.038,N,01131.000,E,0,08,0.9,545.4,M,46.9,M,,")));
+  for (const std::string quality : {"0", "6", "7", "8", "", "x"}) {  // none, or not measured
+    EXPECT_FALSE(parse_nmea_fix(with_checksum("GPGGA,000001,4807.038,N,01131.000,E," + quality +
+                                              ",08,0.9,545.4,M,46.9,M,,")))
+        << quality;
+  }
   EXPECT_FALSE(parse_nmea_fix(""));
   EXPECT_FALSE(parse_nmea_fix("$*"));
 }

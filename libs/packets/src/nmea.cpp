@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "traverse/sensors/gga_quality.hpp"
+
 namespace traverse::packets {
 
 namespace {
@@ -17,6 +19,11 @@ std::optional<double> number_of(std::string_view text) {
     return std::nullopt;
   }
   return value;
+}
+
+std::optional<int> digit_of(std::string_view text) {
+  if (text.size() != 1 || text[0] < '0' || text[0] > '9') return std::nullopt;
+  return text[0] - '0';
 }
 
 std::string_view up_to_checksum(std::string_view sentence) {
@@ -93,7 +100,9 @@ std::optional<NmeaFix> parse_nmea_fix(std::string_view sentence) {
   const bool is_rmc = fields[0].ends_with("RMC");
   if (!is_rmc && !fields[0].ends_with("GGA")) return std::nullopt;
   if (fields.size() < (is_rmc ? 10U : 12U)) return std::nullopt;
-  if (is_rmc ? fields[2] != "A" : fields[6].empty() || fields[6] == "0") return std::nullopt;
+  const std::optional<int> quality = is_rmc ? std::nullopt : digit_of(fields[6]);
+  const bool is_measured = is_rmc ? fields[2] == "A" : quality && sensors::is_gga_fix(*quality);
+  if (!is_measured) return std::nullopt;
   const std::size_t place = is_rmc ? 3 : 2;
   const auto time = seconds_of_day(fields[1]);
   const auto latitude = angle_deg(fields[place], fields[place + 1], 90);
@@ -108,6 +117,7 @@ std::optional<NmeaFix> parse_nmea_fix(std::string_view sentence) {
   } else if (const auto above_sea = number_of(fields[9])) {
     fix.altitude_m = *above_sea + number_of(fields[11]).value_or(0);
   }
+  if (quality) fix.covariance_enu = sensors::covariance_of_gga_quality(*quality);
   return fix;
 }
 

@@ -180,6 +180,7 @@ void PacketLidars::add_position(Bytes packet, geometry::Stamp arrival, const Sin
   measured.sensor = kGnss;
   measured.latitude_deg = fix->latitude_deg;
   measured.longitude_deg = fix->longitude_deg;
+  measured.covariance_enu = fix->covariance_enu;
   if (fix->altitude_m) last_altitude_ = fix->altitude_m;
   measured.altitude_m = last_altitude_.value_or(std::numeric_limits<double>::quiet_NaN());
   ++statistics_.fixes;
