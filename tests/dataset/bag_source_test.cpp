@@ -376,12 +376,12 @@ TEST(BagSource, TypesThatSomebodyMayExpectAreListedWithTheReason) {
   const TemporaryFolder folder;
   std::vector<MadeMessage> messages = vehicle(Wire::kRos1);
   for (const char* type :
-       {"sensor_msgs/LaserScan", "point_cloud_interfaces/CompressedPointCloud2"}) {
+       {"sensor_msgs/MultiEchoLaserScan", "point_cloud_interfaces/CompressedPointCloud2"}) {
     messages.push_back({std::string("/of/") + type, type, kStart, "abc"});
   }
   write_ros1_bag(folder / "a.bag", messages);
   const auto source = open(folder / "a.bag");
-  EXPECT_THAT(topic_in(*source, "/of/sensor_msgs/LaserScan").why,
+  EXPECT_THAT(topic_in(*source, "/of/sensor_msgs/MultiEchoLaserScan").why,
               HasSubstr("a laser that scans one plane"));
   EXPECT_THAT(topic_in(*source, "/of/point_cloud_interfaces/CompressedPointCloud2").why,
               HasSubstr("makes PointCloud2"));
