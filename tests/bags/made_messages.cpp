@@ -136,11 +136,12 @@ std::string cloud_message(Wire wire, std::int64_t ns, std::string_view frame,
 }
 
 std::string fix_message(Wire wire, std::int64_t ns, std::string_view frame, int status,
-                        double latitude, double longitude, double altitude) {
+                        double latitude, double longitude, double altitude,
+                        const double (&variances)[3]) {
   MessageWriter writer(wire);
   writer.header(ns, frame).number(static_cast<std::int8_t>(status));
   writer.number(std::uint16_t{1}).all(latitude, longitude, altitude);
-  return writer.all(4, 0, 0, 0, 4, 0, 0, 0, 9).u8(2).take();
+  return writer.all(variances[0], 0, 0, 0, variances[1], 0, 0, 0, variances[2]).u8(2).take();
 }
 
 std::string transforms_message(Wire wire, std::int64_t ns, const std::vector<TransformOf>& all) {

@@ -46,8 +46,10 @@ struct CloudMessage {
 std::string cloud_message(Wire wire, std::int64_t ns, std::string_view frame,
                           const CloudMessage& cloud);
 
+/// \param variances of east, north and up [m^2]
 std::string fix_message(Wire wire, std::int64_t ns, std::string_view frame, int status,
-                        double latitude, double longitude, double altitude);
+                        double latitude, double longitude, double altitude,
+                        const double (&variances)[3] = {4, 4, 9});
 
 struct TransformOf {
   std::string parent;

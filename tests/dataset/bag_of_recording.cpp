@@ -84,9 +84,10 @@ std::vector<MadeMessage> messages_of(dataset::Source& source, Wire wire) {
           {"/imu", "sensor_msgs/Imu", ns + kWire_ns,
            imu_message(wire, ns, "imu", {w.x(), w.y(), w.z()}, {f.x(), f.y(), f.z()})});
     } else if (const auto* fix = std::get_if<sensors::GnssFix>(&*measurement)) {
+      const auto variance = [&](int axis) { return fix->covariance_enu.value()(axis, axis); };
       messages.push_back({"/fix", "sensor_msgs/NavSatFix", ns + kWire_ns,
                           fix_message(wire, ns, "gnss", 0, fix->latitude_deg, fix->longitude_deg,
-                                      fix->altitude_m)});
+                                      fix->altitude_m, {variance(0), variance(1), variance(2)})});
     }
   }
   std::stable_sort(messages.begin(), messages.end(),
