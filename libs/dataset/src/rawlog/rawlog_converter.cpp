@@ -175,7 +175,8 @@ GnssFix gnss_fix(const mrpt::obs::CObservationGPS& observation) {
     }
   }
   if (const auto* attitude = good_attitude(observation)) {
-    if (std::isfinite(attitude->fields.azimuth)) fix.heading_deg = attitude->fields.azimuth;
+    const double azimuth = attitude->fields.azimuth;  // packed: a reference would be misaligned
+    if (std::isfinite(azimuth)) fix.heading_deg = azimuth;
   }
   return fix;
 }
