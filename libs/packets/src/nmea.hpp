@@ -14,7 +14,7 @@ struct NmeaFix {
   std::optional<std::int64_t> day;  ///< since 1970-01-01; RMC tells it
   double latitude_deg = 0;
   double longitude_deg = 0;
-  std::optional<double> altitude_m;  ///< above the ellipsoid; GGA tells it
+  std::optional<double> altitude_m;               ///< above the ellipsoid; GGA tells it
   std::optional<Eigen::Matrix3d> covariance_enu;  ///< m^2, by the quality code of a GGA
 };
 
