@@ -103,8 +103,8 @@ mrpt::obs::CObservationIMU to_observation(const ImuSample& sample) {
   return observation;
 }
 
-/// Numbers and lengths of Novatel's messages. Source: OEM6 Family Firmware Reference Manual
-/// (OM-20000129) and SPAN on OEM6 (OM-20000144), as MRPT's headers lay them out.
+/// Numbers and lengths of Novatel's messages. Source: MRPT 2.5.8, gnss_messages_type_list.h and the
+/// fields in gnss_messages_novatel.h, without header and checksum.
 constexpr std::uint16_t kBestPosition = 42;
 constexpr std::uint16_t kBestPositionBytes = 72;
 constexpr std::uint16_t kInertialAttitude = 508;
