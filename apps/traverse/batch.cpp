@@ -169,7 +169,7 @@ void run_plan(const BatchArguments& arguments, const std::vector<std::string>& c
   if (!wrong.empty()) throw std::runtime_error(wrong);
 }
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kBatchExamples = R"(Examples:
   traverse batch plan.yaml --check                     explain the plan, run nothing
   traverse batch plan.yaml -o TRY --last 9             ten frames of each run, to see what comes out
   traverse batch plan.yaml -o OUT                      on this machine; OUT/batch.html is the report
@@ -265,7 +265,7 @@ void add_batch(CLI::App& app) {
   auto arguments = std::make_shared<BatchArguments>();
   CLI::App* batch = app.add_subcommand(
       "batch", "evaluate pipelines on recordings as a plan says, here or on a cluster");
-  batch->footer(kExamples);
+  batch->footer(kBatchExamples);
   batch->add_option("PLAN", arguments->plan, "YAML file: recordings, pipelines, grid, limits")
       ->check(CLI::ExistingFile);
   batch->add_option("-o,--output", arguments->folder, "folder of the batch")->type_name("OUT");

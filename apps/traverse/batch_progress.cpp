@@ -21,7 +21,7 @@ using files::clock_text;
 namespace {
 
 constexpr std::size_t kMostRunningLines = 16;
-constexpr std::chrono::milliseconds kRedrawInterval{250};
+constexpr std::chrono::milliseconds kBatchRedrawInterval{250};
 
 double share_of(const batch::BatchState& state) {
   return state.to_do == 0 ? 1 : static_cast<double>(state.made) / static_cast<double>(state.to_do);
@@ -117,7 +117,7 @@ void BatchProgress::tick(const batch::BatchState& state,
                          const std::vector<batch::RunningJob>& running) {
   if (!terminal_) return;
   const auto now = std::chrono::steady_clock::now();
-  if (now - last_drawn_ < kRedrawInterval) return;
+  if (now - last_drawn_ < kBatchRedrawInterval) return;
   last_drawn_ = now;
   const std::size_t width = terminal_width();
   std::string text = fmt::format("batch {} {}\n", bar_text(share_of(state)), total_text(state));

@@ -24,7 +24,7 @@ namespace {
 using loam::FactorBench;
 using loam::Spread;
 
-constexpr const char* kFooter = R"(Examples:
+constexpr const char* kBenchFactorsExamples = R"(Examples:
   traverse bench-factors                               on a frame of a simulated street
   traverse bench-factors 2011_09_26_drive_0001 --frame 50 --json factors.json
   traverse run DRIVE -o RUN --bench-factors            the same as a part of RUN's report
@@ -34,7 +34,7 @@ Every derivative works on the same correspondences, in turn, in each of the repe
 ± half of what lies between the quartiles. "swept" points have each seen their part of the sweep's
 motion, Exp(s Log R) p + s t, as in LOAM's scan-to-scan stage. docs/mathematics.md derives both.)";
 
-struct Arguments {
+struct BenchFactorsArguments {
   RecordingOptions recording;
   std::size_t frame = kFramesBefore;
   int repeats = kFactorRepeats;
@@ -113,7 +113,7 @@ void print(const FactorBench& bench) {
   }
 }
 
-void bench_factors(Arguments& arguments) {
+void bench_factors(BenchFactorsArguments& arguments) {
   FactorBench bench;
   if (arguments.recording.recording.empty()) {
     bench = measure_on_simulated_street(arguments.frame, arguments.repeats);
@@ -130,7 +130,7 @@ void bench_factors(Arguments& arguments) {
 void add_bench_factors(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "bench-factors", "measure analytic, automatic and numeric derivatives on one frame");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<BenchFactorsArguments>();
   add_recording_options(*command, arguments->recording);
   command->get_option("RECORDING")
       ->required(false)
@@ -147,7 +147,7 @@ void add_bench_factors(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--json", arguments->json, "write every figure to this file")
       ->type_name("FILE");
-  command->footer(kFooter);
+  command->footer(kBenchFactorsExamples);
   command->callback([arguments] { bench_factors(*arguments); });
 }
 

@@ -24,7 +24,7 @@ namespace traverse::app {
 
 namespace {
 
-constexpr const char* kFooter = R"(Example:
+constexpr const char* kCheckJacobiansExamples = R"(Example:
   traverse check-jacobians --states 1000 --seed 7 --json jacobians.json
   traverse check-jacobians --factor inertial --show
   traverse check-jacobians --show --run RUN --frame 200
@@ -40,7 +40,7 @@ const std::map<std::string, std::vector<std::string>> kGroups{
     {"inertial", {"inertial rotation", "inertial velocity", "inertial position"}},
     {"lidar", {"line vector", "line scalar", "plane absolute", "plane signed"}}};
 
-struct Arguments {
+struct CheckJacobiansArguments {
   std::vector<optimization::FactorKind> kinds;
   optimization::AuditOptions options;
   std::optional<std::filesystem::path> json;
@@ -100,7 +100,7 @@ std::string failures(const optimization::JacobianAudit& audit) {
 }
 
 /// Those that --factor asks for. \throws std::invalid_argument if it is the name of none.
-std::vector<optimization::FactorKind> chosen(const Arguments& arguments) {
+std::vector<optimization::FactorKind> chosen(const CheckJacobiansArguments& arguments) {
   if (arguments.factor.empty()) return arguments.kinds;
   const auto group = kGroups.find(arguments.factor);
   const std::vector<std::string> names =
@@ -153,7 +153,7 @@ std::string blocks_text(const optimization::ShownBlock& block) {
   return text;
 }
 
-void show_jacobians(const Arguments& arguments) {
+void show_jacobians(const CheckJacobiansArguments& arguments) {
   if (!arguments.run.empty()) {
     fmt::print("At frames {} and {} of {}, between them a constant rate and acceleration\n\n",
                arguments.frame - 1, arguments.frame, arguments.run);
@@ -172,8 +172,8 @@ void show_jacobians(const Arguments& arguments) {
   }
 }
 
-void check_jacobians(const Arguments& given) {
-  Arguments arguments = given;
+void check_jacobians(const CheckJacobiansArguments& given) {
+  CheckJacobiansArguments arguments = given;
   if (!arguments.run.empty()) {
     arguments.kinds = pipeline::factor_kinds_of_run({arguments.run}, arguments.frame);
     arguments.options.states = 1;
@@ -203,7 +203,7 @@ void check_jacobians(const Arguments& given) {
 void add_check_jacobians(CLI::App& app, std::vector<optimization::FactorKind> kinds) {
   CLI::App* command = app.add_subcommand(
       "check-jacobians", "compare every factor's analytic Jacobian with two others");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CheckJacobiansArguments>();
   arguments->kinds = std::move(kinds);
   command
       ->add_option("--states", arguments->options.states,
@@ -228,7 +228,7 @@ void add_check_jacobians(CLI::App& app, std::vector<optimization::FactorKind> ki
       ->needs(run);
   command->add_option("--json", arguments->json, "write every figure to this file")
       ->type_name("FILE");
-  command->footer(kFooter);
+  command->footer(kCheckJacobiansExamples);
   command->callback([arguments] { check_jacobians(*arguments); });
 }
 

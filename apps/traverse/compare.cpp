@@ -14,7 +14,7 @@ namespace traverse::app {
 
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kCompareExamples = R"(Examples:
   traverse compare runs/before runs/after
   traverse compare runs/floam runs/other runs/third -o floam-and-others.html --threshold 5
 
@@ -47,7 +47,7 @@ void add_compare(CLI::App& app) {
       ->capture_default_str();
   compare->add_flag("--private", arguments->options.is_private,
                     "the page does not tell whose machine made the runs, nor paths on it");
-  compare->footer(kExamples);
+  compare->footer(kCompareExamples);
   compare->callback([arguments] {
     if (arguments->page.extension() != ".html") {
       throw CLI::ValidationError("--output", "must end in .html");

@@ -37,7 +37,7 @@ struct ConvertOptions {
   std::size_t last = std::numeric_limits<std::size_t>::max();
 };
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kConvertExamples = R"(Examples:
   traverse convert 2011_09_26_drive_0001_sync drive.rawlog
   traverse convert drive.rawlog copy.bag                       a ROS 1 bag
   traverse convert drive.rawlog other.mcap --packing zstd      messages of ROS 2
@@ -188,7 +188,7 @@ void add_convert(CLI::App& app) {
   command->add_flag("--force", options->force,
                     "replace files at and beside X.rawlog, X.bag, X.mcap or X.txt that this "
                     "program did not write");
-  command->footer(kExamples);
+  command->footer(kConvertExamples);
   command->callback([options] { run_convert(*options); });
 }
 

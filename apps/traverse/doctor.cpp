@@ -34,7 +34,7 @@ struct DoctorOptions {
   std::string json;      ///< path; empty if not given
 };
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kDoctorExamples = R"(Examples:
   traverse doctor DRIVE                                what keeps a run from working, and what to do next
   traverse doctor drive.rawlog --pipeline gins-window
   traverse doctor scans --recording lidar.time_unit=us   whether a statement mends it
@@ -125,7 +125,7 @@ void add_doctor(CLI::App& app) {
       ->option_text("NAME");
   command->add_option("--json", options->json, "write the findings to this file too")
       ->option_text("FILE");
-  command->footer(kExamples);
+  command->footer(kDoctorExamples);
   command->callback([options] { run_doctor(*options); });
 }
 

@@ -36,7 +36,7 @@ using dataset::TrajectoryFormat;
 using evaluation::AlignmentMode;
 using evaluation::Relation;
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kEvaluateExamples = R"(Examples:
   traverse evaluate estimate.tum --reference reference.tum --align se3
   traverse evaluate RUN --rpe 10f --rpe 100m --all-pairs --json evaluation.json
   traverse evaluate 00_estimate.txt --reference 00.txt --format kitti --align sim3 --relation full
@@ -53,7 +53,7 @@ point_distance_error_ratio. Without --relation the table shows translation and a
 aligned. Of trajectories of more than 65,536 poses what does not fit lies in a file without a name
 in $TMPDIR or /tmp, 96 bytes a pose, until the program ends.)";
 
-struct Arguments {
+struct EvaluateArguments {
   fs::path estimate;
   std::optional<fs::path> reference;
   TrajectoryFormat format = TrajectoryFormat::kAuto;
@@ -120,7 +120,7 @@ CLI::Validator delta() {
           "DELTA"};
 }
 
-void require_sensible(const Arguments& arguments) {
+void require_sensible(const EvaluateArguments& arguments) {
   if (!arguments.reference && !fs::is_directory(arguments.estimate)) {
     throw CLI::ValidationError("--reference", "is needed unless ESTIMATE is a run folder");
   }
@@ -145,7 +145,7 @@ void choose_relations(const std::vector<std::string>& names,
   }
 }
 
-void choose_rpe(const Arguments& arguments, evaluation::EvaluationOptions& options) {
+void choose_rpe(const EvaluateArguments& arguments, evaluation::EvaluationOptions& options) {
   options.rpe_must_exist = !arguments.deltas.empty();
   const auto deltas = arguments.deltas.empty() ? std::vector<std::string>{"1f"} : arguments.deltas;
   for (const std::string& text : deltas) {
@@ -154,7 +154,7 @@ void choose_rpe(const Arguments& arguments, evaluation::EvaluationOptions& optio
   }
 }
 
-void require_files_of_run(const Arguments& arguments) {
+void require_files_of_run(const EvaluateArguments& arguments) {
   const pipeline::RunFolder run{arguments.estimate};
   std::vector<fs::path> files{run.trajectory(), run.evaluation()};
   if (!arguments.reference) files.push_back(run.reference());
@@ -224,7 +224,7 @@ struct ReadTrajectory {
 };
 
 /// The document is written as it is made: in memory it is many times as large as what it tells.
-void evaluate(const Arguments& arguments) {
+void evaluate(const EvaluateArguments& arguments) {
   require_sensible(arguments);
   evaluation::EvaluationOptions options = arguments.options;
   choose_relations(arguments.relations, options);
@@ -258,7 +258,7 @@ void evaluate(const Arguments& arguments) {
 void add_evaluate(CLI::App& app) {
   CLI::App& command =
       *app.add_subcommand("evaluate", "Compare an estimated trajectory with a reference");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<EvaluateArguments>();
   evaluation::EvaluationOptions& options = arguments->options;
 
   command
@@ -314,7 +314,7 @@ void add_evaluate(CLI::App& app) {
                   "write every figure with the values behind it to this file")
       ->type_name("FILE");
   add_budget_option(command, arguments->budget);
-  command.footer(kExamples);
+  command.footer(kEvaluateExamples);
   command.callback([arguments] { evaluate(*arguments); });
 }
 

@@ -30,7 +30,7 @@ struct InfoOptions {
   std::string json;  ///< path; empty if not given
 };
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kInfoExamples = R"(Examples:
   traverse info 2011_09_26_drive_0001_sync
   traverse info drive.rawlog --json drive.json
   traverse info RUN                                    how a run went, and what can be done with it
@@ -113,7 +113,7 @@ void add_info(CLI::App& app) {
                     "read all of a bag too, where else its index and first scans are enough");
   command->add_option("--json", options->json, "write all of it to this file too")
       ->option_text("FILE");
-  command->footer(kExamples);
+  command->footer(kInfoExamples);
   command->callback([options, recording] {
     if (options->formats) {
       list_formats(*options);

@@ -9,7 +9,7 @@
 
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kMainExamples = R"(Examples:
   traverse info DRIVE                              what is in a recording
   traverse doctor DRIVE                            what is wrong with it, and what to do next
   traverse run DRIVE -o RUN                        trajectory, map, pictures and RUN/report.html
@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Traverse: lidar SLAM on recordings, with an accuracy report", "traverse"};
   app.set_version_flag("--version", TRAVERSE_VERSION);
   app.require_subcommand(1);
-  app.footer(kExamples);
+  app.footer(kMainExamples);
   traverse::app::add_run(app);
   traverse::app::add_localize(app);
   traverse::app::add_batch(app);

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kMapExamples = R"(Examples:
   traverse map RUN -o MAP                        map.ply, map.simplemap, grid.png and grid.yaml
   traverse map RUN -o MAP --set voxel_m=0.2 --attributes
                                                  coarser; time, ring and keyframe of every point
@@ -213,7 +213,7 @@ void add_map(CLI::App& app) {
                 "time, ring and keyframe of each point beside its intensity");
   map->add_flag("--keep-moving", arguments->keep_moving, "leave moving objects in");
   map->add_flag("--no-grid", arguments->no_grid, "no occupancy grid");
-  map->footer(kExamples);
+  map->footer(kMapExamples);
   map->callback([arguments] { make_map(*arguments); });
 }
 

@@ -15,7 +15,7 @@ namespace traverse::app {
 
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kReportExamples = R"(Examples:
   traverse report RUN                                    report.html, report.json, images/
   traverse report RUN --no-pictures                      the interactive page alone, faster
   traverse report RUN --print-width 8192                 maps for a poster: images/*_print.png
@@ -54,7 +54,7 @@ void add_report(CLI::App& app) {
   add_budget_option(*report, arguments->options.budget);
   report->add_flag("--private", arguments->options.is_private,
                    "the page does not tell whose machine made the run, nor paths on it");
-  report->footer(kExamples);
+  report->footer(kReportExamples);
   report->callback([arguments] {
     const auto budget = write_report_with_progress(
         arguments->folder, find_installed_files().templates, arguments->options);

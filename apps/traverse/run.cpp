@@ -364,7 +364,7 @@ void run_recording(RunArguments& arguments, const std::vector<std::string>& comm
   finish_run(arguments, destination, record, extras, stop);
 }
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kRunExamples = R"(Examples:
   traverse run 2011_09_26_drive_0001 -o RUN            a recording that states its own facts
   traverse run sequences/00 -o RUN --last 499          the first 500 frames of KITTI odometry 00
   traverse run drive.rawlog -o RUN --pipeline floam --set solver.line_residual=vector
@@ -446,7 +446,7 @@ void add_run(CLI::App& app) {
   CLI::App* run = add_estimating(
       app, "run", "estimate the trajectory of a recording; write map, pictures and report",
       arguments);
-  run->footer(kExamples);
+  run->footer(kRunExamples);
   run->add_option("--reference", arguments->reference, "reference trajectory (TUM, KITTI, EuRoC)")
       ->type_name("FILE")
       ->check(CLI::ExistingFile);

@@ -57,7 +57,7 @@ constexpr const char* kCalibration = "rig.yaml";
 constexpr const char* kWorld = "world.yaml";
 constexpr const char* kGnss = "gnss.csv";
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kSimulateExamples = R"(Examples:
   traverse simulate --list
   traverse simulate town_loop -o town.rawlog && traverse run town.rawlog -o RUN
   traverse simulate park -o park.rawlog --sensor vlp16 --duration 20
@@ -309,7 +309,7 @@ CLI::App* declare(CLI::App& app, const std::shared_ptr<SimulateArguments>& argum
       ->capture_default_str();
   command->add_flag("--force", arguments->force,
                     "replace files beside X.rawlog that this program did not write");
-  command->footer(kExamples);
+  command->footer(kSimulateExamples);
   return command;
 }
 
