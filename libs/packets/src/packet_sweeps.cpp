@@ -16,6 +16,14 @@ constexpr std::int32_t kTremble = 100;
 /// Packets that the network brought so much out of turn belong to the frame before.
 constexpr int kLateFrames = 8;
 
+/// All columns: packets tell intensity, time and ring of each point.
+void reserve(sensors::LidarScan& scan, std::size_t points) {
+  scan.reserve(points);
+  scan.intensity.reserve(points);
+  scan.time.reserve(points);
+  scan.ring.reserve(points);
+}
+
 std::int16_t frames_after(std::uint32_t frame, std::uint32_t other) {
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(frame - other));
 }
@@ -94,7 +102,7 @@ void PacketSweeps::add(Bytes packet, geometry::Stamp arrival, const Sink& sink) 
       sweep_.scan.stamp =
           geometry::Stamp{saturated_sum(stamp.nanoseconds, outline_.begin_ns[first])};
       sweep_.scan.sensor = label_;
-      sweep_.scan.reserve(usual_points_ + usual_points_ / 16);
+      reserve(sweep_.scan, usual_points_ + usual_points_ / 16);
     }
     const double zero_s = geometry::seconds_between(sweep_.scan.stamp, stamp);
     counts_.returns += decoder_->append(packet, outline_, first, last, zero_s, sweep_.scan);

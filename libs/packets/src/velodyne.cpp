@@ -1,22 +1,21 @@
 #include "traverse/packets/velodyne.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 #include <stdexcept>
 
 #include "azimuth_table.hpp"
 #include "byte_fields.hpp"
+#include "velodyne_block.hpp"
 
 namespace traverse::packets {
 
 namespace {
 
 constexpr std::size_t kBlocks = 12;
-constexpr std::size_t kReturns = 32;
-constexpr std::size_t kReturnBytes = 3;
+constexpr std::size_t kReturns = kVelodyneReturns;
+constexpr std::size_t kReturnBytes = kVelodyneReturnBytes;
 constexpr std::size_t kBlockBytes = 4 + kReturns * kReturnBytes;
 constexpr std::size_t kTimeAt = kBlocks * kBlockBytes;
 constexpr std::size_t kModeAt = kTimeAt + 4;
@@ -141,141 +140,12 @@ std::size_t apart_of(VelodynePacket packet, VelodyneModel model) {
   return timing_of(model).blocks * (is_dual(packet, model) ? 2 : 1);
 }
 
-// Loops over floats are compiled for AVX2 as well, and the processor chooses; without fused
-// multiply-adds the bits are the same. Not under sanitizers, which are not set up yet then.
-#if defined(__x86_64__) && !defined(TRAVERSE_SANITIZED)
-#define TRAVERSE_PACKETS_AVX2_TOO __attribute__((target_clones("avx2", "default")))
-#else
-#define TRAVERSE_PACKETS_AVX2_TOO
-#endif
-
-/// The lasers of a block, from the first of its bank on.
-struct BlockBeams {
-  const float* sin_azimuth;
-  const float* cos_azimuth;
-  const float* sin_elevation;
-  const float* cos_elevation;
-  const float* distance_m;
-  const float* delay_us;
-};
-
-struct BlockHead {
-  float sin, cos;  ///< of its azimuth
-  float unit_m;
-  float begin_s;
-};
-
-TRAVERSE_PACKETS_AVX2_TOO
-void compute_block(const BlockHead& head, const BlockBeams& beams,
-                   const std::int32_t* __restrict units, const std::int32_t* __restrict strength,
-                   float* __restrict x, float* __restrict y, float* __restrict z,
-                   float* __restrict intensity, float* __restrict time) {
-  const BlockHead h = head;
-  const float* __restrict sin_azimuth = beams.sin_azimuth;
-  const float* __restrict cos_azimuth = beams.cos_azimuth;
-  const float* __restrict sin_elevation = beams.sin_elevation;
-  const float* __restrict cos_elevation = beams.cos_elevation;
-  const float* __restrict distance_m = beams.distance_m;
-  const float* __restrict delay_us = beams.delay_us;
-  for (std::size_t k = 0; k < kReturns; ++k) {
-    const float length = static_cast<float>(units[k]) * h.unit_m + distance_m[k];
-    // Azimuths are clockwise from above.
-    const float s = h.sin * cos_azimuth[k] + h.cos * sin_azimuth[k];
-    const float c = h.cos * cos_azimuth[k] - h.sin * sin_azimuth[k];
-    const float across = length * cos_elevation[k];
-    x[k] = across * c;
-    y[k] = -across * s;
-    z[k] = length * sin_elevation[k];
-    time[k] = h.begin_s + delay_us[k] * 1e-6F;
-    intensity[k] = static_cast<float>(strength[k]);
+void resize(sensors::LidarScan& scan, std::size_t points) {
+  for (std::vector<float>* column : {&scan.x, &scan.y, &scan.z, &scan.intensity, &scan.time}) {
+    column->resize(points);
   }
+  scan.ring.resize(points);
 }
-
-/// Neighbours that all are points.
-struct Run {
-  std::uint16_t begin;
-  std::uint16_t size;
-};
-
-/// Points go over in pieces of one size, which may reach beyond the last.
-constexpr std::size_t kPiece = 16;
-
-template <typename Number>
-[[gnu::always_inline]] inline void copy_runs(std::span<const Run> runs,
-                                             const Number* __restrict from, Number* __restrict to) {
-  for (const Run run : runs) {
-    const Number* at = from + run.begin;
-    std::memcpy(to, at, kPiece * sizeof(Number));
-    for (std::size_t k = kPiece; k < run.size; k += kPiece) {
-      std::memcpy(to + k, at + k, kPiece * sizeof(Number));
-    }
-    to += run.size;
-  }
-}
-TRAVERSE_PACKETS_AVX2_TOO
-void copy_floats(std::span<const Run> runs, const float* from, float* to) {
-  copy_runs(runs, from, to);
-}
-TRAVERSE_PACKETS_AVX2_TOO
-void copy_rings(std::span<const Run> runs, const std::uint16_t* from, std::uint16_t* to) {
-  copy_runs(runs, from, to);
-}
-
-/// The returns of a packet, side by side, and which of them are points.
-struct PacketReturns {
-  static constexpr std::size_t kMost = kBlocks * kReturns;
-  template <typename Number>
-  using Column = std::array<Number, kMost + kPiece>;
-
-  std::array<std::int32_t, kMost> units;
-  std::array<std::int32_t, kMost> strength;
-  std::array<std::uint32_t, kBlocks> mask;  ///< of a block's returns that are points
-  Column<float> x, y, z, intensity, time;
-  Column<std::uint16_t> ring;
-
-  /// \returns which of the block's returns have a distance
-  std::uint32_t take(VelodynePacket packet, std::size_t block) {
-    std::uint32_t found = 0;
-    for (std::size_t k = 0; k < kReturns; ++k) {
-      // All three bytes at once; the fourth, which is another's, is there behind the last as well.
-      const std::uint32_t word = u32_at(return_at(packet, block, k));
-      const std::uint32_t distance = word & 0xFFFF;
-      units[block * kReturns + k] = static_cast<std::int32_t>(distance);
-      strength[block * kReturns + k] = static_cast<std::int32_t>(word >> 16 & 0xFF);
-      found |= static_cast<std::uint32_t>(distance != 0) << k;
-    }
-    return found;
-  }
-
-  void append_to(sensors::LidarScan& scan, std::size_t begin_block, std::size_t end_block,
-                 std::size_t points) const {
-    std::array<Run, kMost / 2> runs;
-    std::size_t count = 0;
-    for (std::size_t block = begin_block; block < end_block; ++block) {
-      for (std::uint32_t left = mask[block]; left != 0;) {
-        const int begin = std::countr_zero(left);
-        const int size = std::countr_one(left >> begin);
-        runs[count++] = {
-            static_cast<std::uint16_t>(block * kReturns + static_cast<std::size_t>(begin)),
-            static_cast<std::uint16_t>(size)};
-        const int end = begin + size;
-        left = end == 32 ? 0 : left >> end << end;
-      }
-    }
-    const auto append = [&](const auto& copy, const auto& from, auto& to) {
-      const std::size_t before = to.size();
-      to.resize(before + points + kPiece);
-      copy(std::span(runs.data(), count), from.data(), to.data() + before);
-      to.resize(before + points);
-    };
-    append(copy_floats, x, scan.x);
-    append(copy_floats, y, scan.y);
-    append(copy_floats, z, scan.z);
-    append(copy_floats, intensity, scan.intensity);
-    append(copy_floats, time, scan.time);
-    append(copy_rings, ring, scan.ring);
-  }
-};
 
 }  // namespace
 
@@ -347,6 +217,10 @@ VelodyneDecoder::VelodyneDecoder(VelodyneModel model, const std::vector<Velodyne
   if (lasers.size() != timing.lasers) {
     throw std::invalid_argument("a calibration of another number of lasers than the model has");
   }
+  for (std::size_t group = 0; group < group_begin_ns_.size(); ++group) {
+    group_begin_ns_[group] = static_cast<std::int32_t>(std::lround(
+        (static_cast<double>(group) * timing.group_us + beam_delay_us(model_, 0)) * 1e3));
+  }
   beam_count_ = timing.lasers * timing.firings;
   for (std::size_t k = 0; k < beam_count_; ++k) {
     const std::size_t laser = k % timing.lasers;
@@ -372,11 +246,9 @@ bool VelodyneDecoder::read_outline(VelodynePacket packet, PacketOutline& outline
   outline.sensor_ns = static_cast<std::int64_t>(velodyne_microseconds(packet)) * 1000;
   outline.groups = used_blocks(packet, model_) / apart;
   outline.has_frame = false;
-  const double first_us = beam_delay_us(model_, 0);
   for (std::size_t group = 0; group < outline.groups; ++group) {
     outline.azimuth[group] = azimuth_at(packet, group * apart);
-    outline.begin_ns[group] = static_cast<std::int32_t>(
-        std::lround((static_cast<double>(group) * timing.group_us + first_us) * 1e3));
+    outline.begin_ns[group] = group_begin_ns_[group];
   }
   outline.rate = outline.groups > 1 ? units_turned(packet, apart) * kUnit / timing.group_us : 0;
   return true;
@@ -423,60 +295,36 @@ ReturnCounts VelodyneDecoder::append(Bytes packet, const PacketOutline& outline,
   TurnedBeams turned;
   turn_beams(outline.rate, turned);
 
-  // In three passes over all of the packet: what is written is not read again at once, which would
-  // wait until it is in memory.
-  ReturnCounts counts;
-  PacketReturns returns;
   const std::size_t begin = first * apart;
   const std::size_t end = last * apart;
+  const std::size_t before = scan.size();
+  const std::size_t room = before + (end - begin) * kReturns + kBlockSpill;
+  resize(scan, room);
+  ReturnCounts counts;
   for (std::size_t block = begin; block < end; ++block) {
-    const std::size_t bank = timing.blocks == 1 ? 0 : bank_of(bytes, block);
-    const bool is_known = bank * kReturns + kReturns <= beam_count_;
-    std::uint32_t mask = is_known ? returns.take(bytes, block) : 0;
-    counts.returns += static_cast<std::size_t>(std::popcount(mask));
-    if (outline.is_dual && block % 2 == 1) {
-      for (std::size_t k = 0; k < kReturns; ++k) {
-        if ((mask >> k & 1) == 0 || !is_repeated(bytes, true, block, k)) continue;
-        mask &= ~(1U << k);
-        ++counts.repeated;
-      }
-    }
-    counts.points += static_cast<std::size_t>(std::popcount(mask));
-    returns.mask[block] = mask;
-  }
-
-  for (std::size_t block = begin; block < end; ++block) {
-    if (returns.mask[block] == 0) continue;
     const std::size_t bank = timing.blocks == 1 ? 0 : bank_of(bytes, block);
     const std::size_t beam = bank * kReturns;
-    const std::size_t at = block * kReturns;
+    if (beam + kReturns > beam_count_) continue;
     const auto begin_s =
         static_cast<float>(zero_s + static_cast<double>(block / apart) * timing.group_us * 1e-6);
     const auto [sin, cos] = azimuths.entries[static_cast<std::size_t>(azimuth_at(bytes, block))];
-    float* const x = returns.x.data() + at;
-    float* const y = returns.y.data() + at;
-    float* const z = returns.z.data() + at;
-    compute_block(
-        {sin, cos, unit_m, begin_s},
-        {&turned.sin_azimuth[beam], &turned.cos_azimuth[beam], &beams_.sin_elevation[beam],
-         &beams_.cos_elevation[beam], &beams_.distance_m[beam], &beams_.delay_us[beam]},
-        &returns.units[at], &returns.strength[at], x, y, z, &returns.intensity[at],
-        &returns.time[at]);
-    if (has_offsets_) {
-      for (std::size_t k = 0; k < kReturns; ++k) {
-        const std::size_t b = beam + k;
-        const float s = sin * turned.cos_azimuth[b] + cos * turned.sin_azimuth[b];
-        const float c = cos * turned.cos_azimuth[b] - sin * turned.sin_azimuth[b];
-        const float inwards = beams_.vertical_m[b] * beams_.sin_elevation[b];
-        x[k] += beams_.horizontal_m[b] * s - inwards * c;
-        y[k] += beams_.horizontal_m[b] * c + inwards * s;
-        z[k] += beams_.vertical_m[b] * beams_.cos_elevation[b];
-      }
-    }
-    std::copy_n(beams_.ring.begin() + beam, kReturns, returns.ring.begin() + at);
+    const BlockBeams beams{&turned.sin_azimuth[beam],
+                           &turned.cos_azimuth[beam],
+                           &beams_.sin_elevation[beam],
+                           &beams_.cos_elevation[beam],
+                           &beams_.distance_m[beam],
+                           &beams_.delay_us[beam],
+                           &beams_.ring[beam],
+                           has_offsets_ ? &beams_.horizontal_m[beam] : nullptr,
+                           has_offsets_ ? &beams_.vertical_m[beam] : nullptr};
+    const bool is_second = outline.is_dual && block % 2 == 1;
+    const std::size_t at = before + counts.points;
+    counts += decode_block({sin, cos, unit_m, begin_s}, beams, return_at(bytes, block, 0),
+                           is_second ? return_at(bytes, block - 1, 0) : nullptr,
+                           {&scan.x[at], &scan.y[at], &scan.z[at], &scan.intensity[at],
+                            &scan.time[at], &scan.ring[at]});
   }
-
-  returns.append_to(scan, begin, end, counts.points);
+  resize(scan, before + counts.points);
   return counts;
 }
 

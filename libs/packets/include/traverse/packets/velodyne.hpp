@@ -94,6 +94,7 @@ class VelodyneDecoder : public PacketDecoder {
   VelodyneModel model_;
   Beams beams_;
   std::size_t beam_count_ = 0;
+  std::array<std::int32_t, 12> group_begin_ns_{};  ///< after the packet's time
   bool has_offsets_ = false;
   struct Last {
     std::int64_t us;
