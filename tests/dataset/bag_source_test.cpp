@@ -504,6 +504,8 @@ TEST(BagSource, SeveralLidarsAreUsedAsOneWhereStated) {
     source->return_to(*here);
     EXPECT_EQ(stamp_of(*source->next()), stamp_of(*second));
   }
+  EXPECT_THAT(topic_in(*open(folder / "a.bag"), "/front/points").why,
+              HasSubstr("'lidars=/rear/points,/front/points' takes both as one"));
   EXPECT_THAT(opening_error(folder / "a.bag", {"lidars=/front/points,/top"}),
               HasSubstr("different topics of /front/points, /rear/points"));
   EXPECT_THAT(opening_error(folder / "a.bag", {"lidars=/front/points,/front/points"}),

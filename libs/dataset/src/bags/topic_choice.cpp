@@ -364,6 +364,13 @@ std::optional<std::size_t> choose(const SensorOfBag& sensor, const std::vector<P
     const bool is_other = fits(topics[i]) && i != *best && info.topics[i].use.empty();
     if (is_other && info.topics[i].why.empty()) {
       info.topics[i].why = fmt::format("{}={} takes it", sensor.key, topics[i].topic);
+      const bool is_another_lidar = sensor.name == std::string_view("lidar") &&
+                                    topics[i].frame != topics[*best].frame &&
+                                    !is_world(topics[i].frame);
+      if (is_another_lidar) {
+        info.topics[i].why += fmt::format("; '{}={},{}' takes both as one", kLidarsAsOne,
+                                          topics[*best].topic, topics[i].topic);
+      }
     }
   }
   return best;
