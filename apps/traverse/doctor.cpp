@@ -60,6 +60,17 @@ Estimation make_estimation(const DoctorOptions& options, const dataset::Recordin
   }
 }
 
+Diagnosis lost_beginning(const OdometryProbe::Lost& lost) {
+  return {"run_lost", lost.is_whole ? Effect::kFails : Effect::kWorse,
+          fmt::format("{}: {}",
+                      lost.is_whole ? "a run of it is lost"
+                                    : fmt::format("its first {} frames are lost", lost.frames),
+                      lost.why),
+          "run: the path is not one that the vehicle drove",
+          "see docs/run-folder.md#health, and what stands below; another pipeline may hold: "
+          "traverse pipelines"};
+}
+
 std::vector<Diagnosis> examine(const DoctorOptions& options) {
   std::unique_ptr<dataset::Source> source;
   try {
@@ -69,13 +80,14 @@ std::vector<Diagnosis> examine(const DoctorOptions& options) {
   }
   RecordingProgress progress("reading", *source);
   plausibility::StreamChecks checks(source->info());
-  OdometryProbe probe(*source, checks);
+  OdometryProbe probe(*source, checks, options.pipeline);
   const dataset::RecordingSurvey survey = dataset::survey(*source, [&](const auto& measurement) {
     progress.update(measurement);
     checks.take(measurement);
     probe.take(measurement);
   });
   progress.finish();
+  probe.finish();
   const Estimation estimation = make_estimation(options, source->info());
   std::vector<plausibility::Finding> findings = checks.findings();
   for (plausibility::Finding& finding : findings) {
@@ -84,7 +96,14 @@ std::vector<Diagnosis> examine(const DoctorOptions& options) {
                          estimation.estimator->depends_on(sensor->kind);
     if (!matters) finding.severity = plausibility::Severity::kWarn;
   }
-  return plausibility::diagnose(*source, survey, findings, estimation.why_not);
+  std::vector<Diagnosis> diagnoses =
+      plausibility::diagnose(*source, survey, findings, estimation.why_not);
+  if (const auto lost = probe.lost(); lost && estimation.why_not.empty()) {
+    diagnoses.insert(diagnoses.begin(), lost_beginning(*lost));
+    std::stable_sort(diagnoses.begin(), diagnoses.end(),
+                     [](const auto& a, const auto& b) { return a.effect < b.effect; });
+  }
+  return diagnoses;
 }
 
 std::string diagnoses_json(const std::vector<Diagnosis>& diagnoses) {

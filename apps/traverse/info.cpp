@@ -88,6 +88,7 @@ void run_info(const InfoOptions& options) {
     probe.take(measurement);
   });
   progress.finish();
+  probe.finish();
   const std::vector<plausibility::Finding> findings = checks.findings();
   if (!options.json.empty()) {
     write_json_output(options.json, recording_json(*source, survey, findings));

@@ -402,5 +402,25 @@ TEST(Containers, RealBagsOfPacketsGiveWhatTheirMetadataTell) {
   EXPECT_EQ(bags, 5U);
 }
 
+TEST(Containers, FirstChunksAreUnpackedOnceHoweverOftenOneBegins) {
+  const TemporaryFolder folder;
+  const fs::path file = folder / "a.bag";
+  ChunkOptions options;
+  options.packing = "lz4";
+  write_ros1_bag(file, made_messages(), options);
+  const auto container = open_ros1_bag(file);
+  container->begin(all_channels(*container));
+  const auto first = container->next();
+  ASSERT_TRUE(first);
+  const Read before = read_of(*container, *first);
+  // What is kept needs the file no more.
+  const auto size = fs::file_size(file);
+  std::fstream(file, std::ios::binary | std::ios::in | std::ios::out) << std::string(size, '\0');
+  container->begin(all_channels(*container));
+  const auto again = container->next();
+  ASSERT_TRUE(again);
+  EXPECT_EQ(read_of(*container, *again), before);
+}
+
 }  // namespace
 }  // namespace traverse::bags

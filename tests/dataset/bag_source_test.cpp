@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -451,6 +452,65 @@ TEST(BagSource, EveryKindOfBagGivesTheScansOfTheRawlogItWasMadeOf) {
                     .rig.first(sensors::SensorKind::kLidar)
                     ->T_body_sensor.translation.isApprox(Eigen::Vector3d(1, 0, 2)));
   }
+}
+
+/// Five scans of each of two lidars, 20 ms apart, that look ahead and behind.
+std::vector<MadeMessage> two_lidars(Wire wire) {
+  std::vector<MadeMessage> messages;
+  messages.push_back({"/tf_static", "tf2_msgs/TFMessage", kStart,
+                      transforms_message(wire, kStart,
+                                         {{"base_link", "ahead", {2, 0, 0}},
+                                          {"base_link", "behind", {-2, 0, 0}, {0, 0, 1, 0}}})});
+  for (int i = 0; i < 5; ++i) {
+    const std::int64_t ns = kStart + i * kTenth;
+    messages.push_back(scan_message("/front/points", ns, "ahead", wire));
+    messages.push_back(scan_message("/rear/points", ns + kTenth / 5, "behind", wire));
+  }
+  return messages;
+}
+
+TEST(BagSource, SeveralLidarsAreUsedAsOneWhereStated) {
+  const TemporaryFolder folder;
+  write_ros1_bag(folder / "a.bag", two_lidars(Wire::kRos1));
+  write_mcap(folder / "a.mcap", two_lidars(Wire::kCdr));
+  const std::string both = "lidars=/front/points,/rear/points";
+  for (const fs::path& file : {folder / "a.bag", folder / "a.mcap"}) {
+    const auto source = open(file, {both});
+    const auto* lidar = source->info().rig.find("/front/points + /rear/points");
+    ASSERT_NE(lidar, nullptr);
+    EXPECT_EQ(lidar->lidar->rings, 8);
+    EXPECT_EQ(lidar->T_body_sensor.translation, Eigen::Vector3d(2, 0, 0));
+    EXPECT_EQ(topic_in(*source, "/front/points").use, "lidar");
+    EXPECT_EQ(topic_in(*source, "/rear/points").use, "lidar");
+    EXPECT_EQ(fact_value(*source, "/rear/points: rings"), fact_value(*source, "rings"));
+    std::size_t points = 0;
+    float farthest_behind = 0;
+    const auto measurements = read_all(*source);
+    for (const auto& scan : scans_in(measurements)) {
+      points += scan->size();
+      farthest_behind =
+          std::min(farthest_behind, *std::min_element(scan->x.begin(), scan->x.end()));
+    }
+    EXPECT_EQ(points, 2U * 5U * 40U);
+    EXPECT_FLOAT_EQ(farthest_behind,
+                    -44 - 4);  // 44 m ahead of the one behind, 4 m behind the first
+
+    source->rewind();
+    static_cast<void>(source->next());
+    const auto here = source->bookmark();
+    ASSERT_TRUE(here);
+    const auto second = source->next();
+    static_cast<void>(source->next());
+    source->return_to(*here);
+    EXPECT_EQ(stamp_of(*source->next()), stamp_of(*second));
+  }
+  EXPECT_THAT(topic_in(*open(folder / "a.bag"), "/front/points").why,
+              HasSubstr("'lidars=/rear/points,/front/points' takes both as one"));
+  EXPECT_THAT(opening_error(folder / "a.bag", {"lidars=/front/points,/top"}),
+              HasSubstr("different topics of /front/points, /rear/points"));
+  EXPECT_THAT(opening_error(folder / "a.bag", {"lidars=/front/points,/front/points"}),
+              HasSubstr("'/front/points'"));
+  EXPECT_EQ(read_scans(*open(folder / "a.bag", {"lidars=/rear/points"})).size(), 5U);
 }
 
 }  // namespace

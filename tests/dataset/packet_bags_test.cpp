@@ -200,6 +200,29 @@ TEST(PacketBags, ACloudWithPointTimesIsTakenBeforePackets) {
   }
 }
 
+TEST(PacketBags, OfTwoLidarsAreUsedAsOneWhereStated) {
+  const TemporaryFolder folder;
+  auto messages = messages_of(turns_of_a_vlp16(300), "velodyne_msgs/VelodyneScan", Wire::kRos1, 76);
+  const std::size_t count = messages.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    messages.push_back(messages[i]);
+    messages.back().topic = "/packets_behind";
+  }
+  write_ros1_bag(folder / "a.bag", messages);
+  const auto points_in = [](const std::vector<ScanPtr>& scans) {
+    std::size_t points = 0;
+    for (const ScanPtr& scan : scans) points += scan->size();
+    return points;
+  };
+  const auto one = open(folder / "a.bag", {"lidars=/packets"});
+  const std::size_t points = points_in(read_scans(*one));
+  EXPECT_GT(points, 0U);
+  const auto both = open(folder / "a.bag", {"lidars=/packets,/packets_behind"});
+  EXPECT_EQ(points_in(read_scans(*both)), 2 * points);
+  EXPECT_EQ(accounts_of(*both, "/packets_behind").points, accounts_of(*both, "/packets").points);
+  EXPECT_EQ(both->info().rig.find("/packets + /packets_behind")->lidar->rings, 32);
+}
+
 TEST(PacketBags, OfALidarThatIsNotKnownAreRefusedByWhatIsMissing) {
   const TemporaryFolder folder;
   std::string ouster(32 + 16 * (12 + 64 * 12) + 32, '\0');

@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -30,18 +31,33 @@ class Doctor : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-/// Scans as text whose field of times is called so and counts so.
-void make_scans(const fs::path& folder, const std::string& field, double step) {
+/// Scans of the corner of a room as text, whose field of times is called so and counts so.
+/// \param points_a_side of floor and walls
+void make_scans(const fs::path& folder, const std::string& field, double step,
+                int points_a_side = 12) {
   fs::create_directories(folder);
-  for (int i = 0; i < 3; ++i) {
-    std::string text = "VERSION 0.7\nFIELDS x y z ring " + field +
-                       "\nSIZE 4 4 4 2 8\nTYPE F F F U F\nCOUNT 1 1 1 1 1\nWIDTH 4\nHEIGHT 1\n"
-                       "POINTS 4\nDATA ascii\n";
-    for (int k = 0; k < 4; ++k) {
-      text += std::to_string(3 + k) + " 2 1 " + std::to_string(k) + " " + std::to_string(step * k) +
-              "\n";
+  std::string points;
+  int count = 0;
+  const auto add = [&](double x, double y, double z) {
+    const double share = (count % 97) / 32.0;  // of three steps, all through the scan
+    points += fmt::format("{} {} {} {} {}\n", x, y, z, count % 4, step * share);
+    ++count;
+  };
+  for (int i = 0; i < points_a_side; ++i) {
+    for (int k = 0; k < points_a_side; ++k) {
+      const double a = 0.5 + 0.37 * i;
+      const double b = 0.5 + 0.31 * k;
+      add(a, b, -1);
+      add(5.2, b, a - 1);
+      add(a, 4.7, b - 1);
     }
-    files::write_text(folder / (std::to_string(i) + ".pcd"), text);
+  }
+  for (int i = 0; i < 3; ++i) {
+    files::write_text(folder / (std::to_string(i) + ".pcd"),
+                      fmt::format("VERSION 0.7\nFIELDS x y z ring {}\nSIZE 4 4 4 2 8\n"
+                                  "TYPE F F F U F\nCOUNT 1 1 1 1 1\nWIDTH {}\nHEIGHT 1\n"
+                                  "POINTS {}\nDATA ascii\n{}",
+                                  field, count, count, points));
   }
 }
 
@@ -75,6 +91,14 @@ TEST_F(Doctor, TellsWhatMakesResultsWorseAndSucceeds) {
   EXPECT_THAT(run_program("doctor " + path("scans")).output, Not(HasSubstr("deskew_off")));
 }
 
+TEST_F(Doctor, FailsWhereARunOfAllOfItIsLost) {
+  make_scans(folder_ / "scans", "t", 0.03, 1);  // of three points
+  EXPECT_EQ(run_program("run " + path("scans") + " --no-report -o " + path("run")).status, 1);
+  const ProgramResult result = run_program("doctor " + path("scans"));
+  EXPECT_EQ(result.status, 1) << result.everything();
+  EXPECT_THAT(result.output, ContainsRegex("fails  run_lost: a run of it is lost: .*run-folder"));
+}
+
 TEST_F(Doctor, APipelineThatNeedsALidarFailsWithoutOne) {
   files::write_text(folder_ / "log.txt",
                     "IMU 1 0 0 0 0 0 9.8\nIMU 1.01 0 0 0 0 0 9.8\nGNSS 1 48 11 500 0 0\n");
@@ -83,6 +107,21 @@ TEST_F(Doctor, APipelineThatNeedsALidarFailsWithoutOne) {
   EXPECT_THAT(lidar.output, ContainsRegex("fails  no_pipeline: .*lidar.*Next: .*gins-window"));
   EXPECT_THAT(run_program("doctor " + path("log.txt") + " --pipeline gins-window").output,
               Not(HasSubstr("no_pipeline")));
+}
+
+TEST_F(Doctor, LooksFurtherWhereTheVehicleStandsAtFirst) {
+  // It stands for 65 scans, more than are looked at of one that drives, and then goes round a
+  // corner.
+  const ProgramResult made = run_program(
+      "simulate corridor_loop --duration 14 --set route.standstill_s=6.5 --set route.speed_mps=4 "
+      "--set route.acceleration_mps2=2 --set route.lateral_mps2=2 --set route.laps=1 "
+      "--set 'route.waypoints_m=[0, 0, 9, 0, 9, 9, 0, 9]' -o " +
+      path("a.rawlog"));
+  ASSERT_EQ(made.status, 0) << made.messages;
+  EXPECT_THAT(run_program("doctor " + path("a.rawlog")).output, HasSubstr("nothing found"));
+  EXPECT_THAT(
+      run_program("doctor " + path("a.rawlog") + " --recording imu.angular_rate=deg").output,
+      ContainsRegex("gyro_small: imu: .*the lidar's odometry.*Next: .*imu.angular_rate=rad"));
 }
 
 TEST(DoctorCodes, AllStandInTheDocumentation) {

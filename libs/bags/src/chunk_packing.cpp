@@ -1,32 +1,15 @@
 #include "chunk_packing.hpp"
 
-#include <lz4frame.h>
 #include <stdexcept>
-#include <zstd.h>
 
-#include "lazy_library.hpp"
+#include "packing_libraries.hpp"
 
 namespace traverse::bags {
 
 namespace {
 
-struct Lz4Packer {
-  LazyLibrary library{"liblz4.so.1", "liblz4-1"};
-  decltype(&::LZ4F_compressFrameBound) bound =
-      TRAVERSE_LAZY_FUNCTION(library, LZ4F_compressFrameBound);
-  decltype(&::LZ4F_compressFrame) compress = TRAVERSE_LAZY_FUNCTION(library, LZ4F_compressFrame);
-  decltype(&::LZ4F_isError) is_error = TRAVERSE_LAZY_FUNCTION(library, LZ4F_isError);
-};
-
-struct ZstdPacker {
-  LazyLibrary library{"libzstd.so.1", "libzstd1"};
-  decltype(&::ZSTD_compressBound) bound = TRAVERSE_LAZY_FUNCTION(library, ZSTD_compressBound);
-  decltype(&::ZSTD_compress) compress = TRAVERSE_LAZY_FUNCTION(library, ZSTD_compress);
-  decltype(&::ZSTD_isError) is_error = TRAVERSE_LAZY_FUNCTION(library, ZSTD_isError);
-};
-
 void pack_by_lz4(std::string_view text, std::string& packed) {
-  static const Lz4Packer lz4;
+  const Lz4Library& lz4 = lz4_library();
   LZ4F_preferences_t preferences{};
   preferences.frameInfo.blockSizeID = LZ4F_max4MB;
   preferences.frameInfo.blockMode = LZ4F_blockIndependent;
@@ -40,7 +23,7 @@ void pack_by_lz4(std::string_view text, std::string& packed) {
 
 void pack_by_zstd(std::string_view text, std::string& packed) {
   constexpr int kQuick = 1;
-  static const ZstdPacker zstd;
+  const ZstdLibrary& zstd = zstd_library();
   packed.resize(zstd.bound(text.size()));
   const std::size_t size =
       zstd.compress(packed.data(), packed.size(), text.data(), text.size(), kQuick);

@@ -145,7 +145,6 @@ void ChunkedContainer::begin(const std::vector<std::size_t>& channels) {
   next_chunk_ = 0;
   waiting_ = {};
   left_.clear();
-  cached_.clear();
 }
 
 /// Gives memory back: of a recording in many files those behind are not read again.
@@ -162,7 +161,8 @@ void ChunkedContainer::make_room(std::uint64_t bytes) {
     cached_.erase(at);
   };
   for (auto at = cached_.begin(); at != cached_.end();) {
-    if (left_.count(at->chunk) > 0) {
+    const bool is_of_head = at->chunk < kHeadChunks && next_chunk_ < 2 * kHeadChunks;
+    if (is_of_head || left_.count(at->chunk) > 0) {
       ++at;
       continue;
     }

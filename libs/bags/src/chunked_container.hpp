@@ -31,7 +31,8 @@ struct Chunk {
 /// A container whose messages stand in chunks, in any order within a chunk and with chunks in any
 /// order: they come out by their log times. A chunk is unpacked when the time has come to its first
 /// message; of those that overlap in time at most kMostCached bytes are kept, others are unpacked
-/// again.
+/// again. Whoever opens a recording begins several times: the first chunks are kept until it goes
+/// on.
 class ChunkedContainer : public MessageContainer {
  public:
   const Contents& contents() const override { return contents_; }
@@ -44,6 +45,7 @@ class ChunkedContainer : public MessageContainer {
 
  protected:
   static constexpr std::uint64_t kMostCached = 48 << 20;
+  static constexpr std::size_t kHeadChunks = 16;
 
   /// Where a message stands in an unpacked chunk.
   struct Found {

@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <map>
 
 #include "traverse/bags/container_writer.hpp"
 
-#include "chunk_packing.hpp"
+#include "chunk_writer.hpp"
 #include "record_bytes.hpp"
 #include "written_definitions.hpp"
 
@@ -48,20 +47,20 @@ std::string ros2_name(const std::string& type) {
   return type.substr(0, slash) + "/msg/" + type.substr(slash + 1);
 }
 
-class McapWriter final : public ContainerWriter {
+class McapWriter final : public ChunkWriter {
  public:
   McapWriter(std::ostream& stream, ChunkPacking packing,
              const std::vector<std::pair<std::string, std::string>>& notes)
-      : stream_(stream), packing_(packing) {
+      : ChunkWriter(stream, packing) {
     put(kWrittenMagic);
     put_record(kWrittenHeader, RecordBytes().sized("ros2").sized("traverse").text());
     if (notes.empty()) return;
     RecordBytes pairs;
     for (const auto& [key, value] : notes) pairs.sized(key).sized(value);
-    const std::uint64_t at = at_;
+    const std::uint64_t begin = at();
     constexpr const char* kName = "recording";
     put_record(kWrittenMetadata, RecordBytes().sized(kName).sized(pairs.text()).text());
-    metadata_index_ = RecordBytes().u64(at).u64(at_ - at).sized(kName).text();
+    metadata_index_ = RecordBytes().u64(begin).u64(at() - begin).sized(kName).text();
   }
 
   Wire wire() const override { return Wire::kCdr; }
@@ -103,16 +102,14 @@ class McapWriter final : public ContainerWriter {
     }
     Channel& known = channels_.at(channel);
     if (!known.is_in_chunks) {
-      content_.raw(schemas_[known.schema]).raw(known.record);
+      chunk().content.raw(schemas_[known.schema]).raw(known.record);
       known.is_in_chunks = true;
     }
     const auto time = static_cast<std::uint64_t>(log_time_ns);
-    if (index_.empty()) first_ = last_ = time;
-    first_ = std::min(first_, time);
-    last_ = std::max(last_, time);
-    index_[channel].u64(time).u64(content_.size());
+    index_for(channel, log_time_ns).u64(time).u64(chunk().content.size());
     constexpr std::size_t kHeadBytes = 22;
-    content_.u8(kWrittenMessage)
+    chunk()
+        .content.u8(kWrittenMessage)
         .u64(kHeadBytes + bytes.size())
         .u16(channel)
         .number(static_cast<std::uint32_t>(known.count))
@@ -120,43 +117,7 @@ class McapWriter final : public ContainerWriter {
         .u64(time)
         .raw(bytes);
     ++known.count;
-    if (content_.size() >= kChunkBytes) end_chunk();
-  }
-
-  void finish() override {
-    if (!index_.empty()) end_chunk();
-    put_record(kWrittenDataEnd, RecordBytes().number(kNoChecksum).text());
-    const std::uint64_t summary_at = at_;
-    struct Group {
-      WrittenMcapOp op;
-      std::uint64_t begin;
-      std::uint64_t end;
-    };
-    std::vector<Group> groups;
-    const auto put_group = [&](WrittenMcapOp op, const auto& put_all) {
-      const std::uint64_t begin = at_;
-      put_all();
-      if (at_ > begin) groups.push_back({op, begin, at_});
-    };
-    put_group(kWrittenSchema, [&] {
-      for (const std::string& schema : schemas_) put(schema);
-    });
-    put_group(kWrittenChannel, [&] {
-      for (const Channel& channel : channels_) put(channel.record);
-    });
-    put_group(kWrittenStatistics, [&] { put_record(kWrittenStatistics, statistics()); });
-    put_group(kWrittenChunkIndex, [&] { put(chunk_indices_.text()); });
-    put_group(kWrittenMetadataIndex, [&] {
-      if (!metadata_index_.empty()) put_record(kWrittenMetadataIndex, metadata_index_);
-    });
-    const std::uint64_t offsets_at = at_;
-    for (const Group& group : groups) {
-      put_record(kWrittenSummaryOffset,
-                 RecordBytes().u8(group.op).u64(group.begin).u64(group.end - group.begin).text());
-    }
-    put_record(kWrittenFooter,
-               RecordBytes().u64(summary_at).u64(offsets_at).number(kNoChecksum).text());
-    put(kWrittenMagic);
+    end_message();
   }
 
  private:
@@ -171,10 +132,6 @@ class McapWriter final : public ContainerWriter {
     return RecordBytes().u8(op).u64(content.size()).raw(content).text();
   }
   void put_record(WrittenMcapOp op, std::string_view content) { put(record(op, content)); }
-  void put(std::string_view bytes) {
-    stream_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    at_ += bytes.size();
-  }
 
   std::string statistics() const {
     std::uint64_t messages = 0;
@@ -189,70 +146,93 @@ class McapWriter final : public ContainerWriter {
         .u32(channels_.size())
         .u32(0)  // attachments
         .u32(metadata_index_.empty() ? 0 : 1)
-        .u32(chunks_)
+        .u32(chunks())
         .u64(first_of_all_)
         .u64(last_of_all_)
         .sized(by_channel.text())
         .text();
   }
 
-  void end_chunk() {
+  void put_chunk(const OpenChunk& full, std::string_view packed) override {
     constexpr std::array<std::string_view, 3> kNames{"", "lz4", "zstd"};
-    const std::string_view packing = kNames.at(static_cast<std::size_t>(packing_));
-    pack(packing_, content_.text(), packed_);
-    const std::uint64_t chunk_at = at_;
+    const std::string_view name = kNames.at(static_cast<std::size_t>(packing()));
+    const auto first = static_cast<std::uint64_t>(full.first_ns);
+    const auto last = static_cast<std::uint64_t>(full.last_ns);
+    const std::uint64_t chunk_at = at();
     const std::string head = RecordBytes()
-                                 .u64(first_)
-                                 .u64(last_)
-                                 .u64(content_.size())
+                                 .u64(first)
+                                 .u64(last)
+                                 .u64(full.content.size())
                                  .number(kNoChecksum)
-                                 .sized(packing)
-                                 .u64(packed_.size())
+                                 .sized(name)
+                                 .u64(packed.size())
                                  .text();
-    put(RecordBytes().u8(kWrittenChunk).u64(head.size() + packed_.size()).text());
+    put(RecordBytes().u8(kWrittenChunk).u64(head.size() + packed.size()).text());
     put(head);
-    put(packed_);
-    const std::uint64_t index_at = at_;
+    put(packed);
+    const std::uint64_t index_at = at();
     RecordBytes offsets;
-    for (const auto& [channel, entries] : index_) {
-      offsets.u16(channel).u64(at_);
+    for (const auto& [channel, entries] : full.index) {
+      offsets.u16(channel).u64(at());
       put_record(kWrittenMessageIndex, RecordBytes().u16(channel).sized(entries.text()).text());
     }
     chunk_indices_.raw(record(kWrittenChunkIndex, RecordBytes()
-                                                      .u64(first_)
-                                                      .u64(last_)
+                                                      .u64(first)
+                                                      .u64(last)
                                                       .u64(chunk_at)
                                                       .u64(index_at - chunk_at)
                                                       .sized(offsets.text())
-                                                      .u64(at_ - index_at)
-                                                      .sized(packing)
-                                                      .u64(packed_.size())
-                                                      .u64(content_.size())
+                                                      .u64(at() - index_at)
+                                                      .sized(name)
+                                                      .u64(packed.size())
+                                                      .u64(full.content.size())
                                                       .text()));
-    first_of_all_ = chunks_ == 0 ? first_ : std::min(first_of_all_, first_);
-    last_of_all_ = std::max(last_of_all_, last_);
-    ++chunks_;
-    content_.clear();
-    index_.clear();
+    first_of_all_ = chunks() == 0 ? first : std::min(first_of_all_, first);
+    last_of_all_ = std::max(last_of_all_, last);
   }
 
-  std::ostream& stream_;
-  ChunkPacking packing_;
-  std::uint64_t at_ = 0;
+  void put_end() override {
+    put_record(kWrittenDataEnd, RecordBytes().number(kNoChecksum).text());
+    const std::uint64_t summary_at = at();
+    struct Group {
+      WrittenMcapOp op;
+      std::uint64_t begin;
+      std::uint64_t end;
+    };
+    std::vector<Group> groups;
+    const auto put_group = [&](WrittenMcapOp op, const auto& put_all) {
+      const std::uint64_t begin = at();
+      put_all();
+      if (at() > begin) groups.push_back({op, begin, at()});
+    };
+    put_group(kWrittenSchema, [&] {
+      for (const std::string& schema : schemas_) put(schema);
+    });
+    put_group(kWrittenChannel, [&] {
+      for (const Channel& channel : channels_) put(channel.record);
+    });
+    put_group(kWrittenStatistics, [&] { put_record(kWrittenStatistics, statistics()); });
+    put_group(kWrittenChunkIndex, [&] { put(chunk_indices_.text()); });
+    put_group(kWrittenMetadataIndex, [&] {
+      if (!metadata_index_.empty()) put_record(kWrittenMetadataIndex, metadata_index_);
+    });
+    const std::uint64_t offsets_at = at();
+    for (const Group& group : groups) {
+      put_record(kWrittenSummaryOffset,
+                 RecordBytes().u8(group.op).u64(group.begin).u64(group.end - group.begin).text());
+    }
+    put_record(kWrittenFooter,
+               RecordBytes().u64(summary_at).u64(offsets_at).number(kNoChecksum).text());
+    put(kWrittenMagic);
+  }
+
   std::string metadata_index_;
   std::vector<std::string> schema_types_;
   std::vector<std::string> schemas_;  ///< records
   std::vector<Channel> channels_;
-  std::uint64_t chunks_ = 0;
   RecordBytes chunk_indices_;
   std::uint64_t first_of_all_ = 0;
   std::uint64_t last_of_all_ = 0;
-
-  RecordBytes content_;  ///< of the chunk that is being filled
-  std::map<std::size_t, RecordBytes> index_;
-  std::uint64_t first_ = 0;
-  std::uint64_t last_ = 0;
-  std::string packed_;
 };
 
 }  // namespace

@@ -1,10 +1,8 @@
-#include <algorithm>
 #include <initializer_list>
-#include <map>
 
 #include "traverse/bags/container_writer.hpp"
 
-#include "chunk_packing.hpp"
+#include "chunk_writer.hpp"
 #include "record_bytes.hpp"
 #include "written_definitions.hpp"
 
@@ -51,9 +49,9 @@ void add_record(RecordBytes& to, Fields fields, std::string_view data) {
 
 std::string op_field(PutOp op) { return std::string(1, static_cast<char>(op)); }
 
-class Ros1BagWriter final : public ContainerWriter {
+class Ros1BagWriter final : public ChunkWriter {
  public:
-  Ros1BagWriter(std::ostream& stream, ChunkPacking packing) : stream_(stream), packing_(packing) {
+  Ros1BagWriter(std::ostream& stream, ChunkPacking packing) : ChunkWriter(stream, packing) {
     if (packing == ChunkPacking::kZstd) {
       throw std::invalid_argument("chunks of a ROS 1 bag are packed by lz4 or not at all");
     }
@@ -83,28 +81,14 @@ class Ros1BagWriter final : public ContainerWriter {
     Connection& connection = connections_.at(channel);
     const std::string time = bytes_of_time(log_time_ns);
     if (!connection.is_in_chunks) {
-      content_.raw(connection.record);
+      chunk().content.raw(connection.record);
       connection.is_in_chunks = true;
     }
-    if (index_.empty()) first_ns_ = last_ns_ = log_time_ns;
-    first_ns_ = std::min(first_ns_, log_time_ns);
-    last_ns_ = std::max(last_ns_, log_time_ns);
-    index_[channel].raw(time).u32(content_.size());
-    add_record(content_,
+    index_for(channel, log_time_ns).raw(time).u32(chunk().content.size());
+    add_record(chunk().content,
                {{"op", op_field(kPutMessage)}, {"conn", bytes_of_u32(channel)}, {"time", time}},
                bytes);
-    if (content_.size() >= kChunkBytes) end_chunk();
-  }
-
-  void finish() override {
-    if (!index_.empty()) end_chunk();
-    const std::uint64_t index_at = at_;
-    for (const Connection& connection : connections_) put(connection.record);
-    put(infos_.text());
-    stream_.seekp(static_cast<std::streamoff>(kBagMagic.size()));
-    const std::string anew = header(index_at);
-    stream_.write(anew.data(), static_cast<std::streamsize>(anew.size()));
-    stream_.seekp(0, std::ios::end);
+    end_message();
   }
 
  private:
@@ -118,28 +102,22 @@ class Ros1BagWriter final : public ContainerWriter {
         fields_text({{"op", op_field(kPutHeader)},
                      {"index_pos", RecordBytes().u64(index_at).text()},
                      {"conn_count", bytes_of_u32(index_at == 0 ? 0 : connections_.size())},
-                     {"chunk_count", bytes_of_u32(index_at == 0 ? 0 : chunks_)}});
+                     {"chunk_count", bytes_of_u32(index_at == 0 ? 0 : chunks())}});
     RecordBytes record;
     record.sized(fields);
     return record.sized(std::string(kBagHeaderBytes - 8 - fields.size(), ' ')).text();
   }
 
-  void put(std::string_view bytes) {
-    stream_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    at_ += bytes.size();
-  }
-
-  void end_chunk() {
-    pack(packing_, content_.text(), packed_);
+  void put_chunk(const OpenChunk& full, std::string_view packed) override {
     RecordBytes head;
     head.sized(fields_text({{"op", op_field(kPutChunk)},
-                            {"compression", packing_ == ChunkPacking::kLz4 ? "lz4" : "none"},
-                            {"size", bytes_of_u32(content_.size())}}))
-        .u32(packed_.size());
+                            {"compression", packing() == ChunkPacking::kLz4 ? "lz4" : "none"},
+                            {"size", bytes_of_u32(full.content.size())}}))
+        .u32(packed.size());
     RecordBytes counts;
     RecordBytes indices;
     constexpr std::size_t kEntryBytes = 12;
-    for (const auto& [number, entries] : index_) {
+    for (const auto& [number, entries] : full.index) {
       const std::size_t count = entries.size() / kEntryBytes;
       add_record(indices,
                  {{"op", op_field(kPutIndex)},
@@ -152,31 +130,25 @@ class Ros1BagWriter final : public ContainerWriter {
     add_record(infos_,
                {{"op", op_field(kPutChunkInfo)},
                 {"ver", bytes_of_u32(1)},
-                {"chunk_pos", RecordBytes().u64(at_).text()},
-                {"start_time", bytes_of_time(first_ns_)},
-                {"end_time", bytes_of_time(last_ns_)},
-                {"count", bytes_of_u32(index_.size())}},
+                {"chunk_pos", RecordBytes().u64(at()).text()},
+                {"start_time", bytes_of_time(full.first_ns)},
+                {"end_time", bytes_of_time(full.last_ns)},
+                {"count", bytes_of_u32(full.index.size())}},
                counts.text());
     put(head.text());
-    put(packed_);
+    put(packed);
     put(indices.text());
-    ++chunks_;
-    content_.clear();
-    index_.clear();
   }
 
-  std::ostream& stream_;
-  ChunkPacking packing_;
-  std::uint64_t at_ = 0;
-  std::vector<Connection> connections_;
-  std::uint64_t chunks_ = 0;
-  RecordBytes infos_;  ///< of the chunks that are written
+  void put_end() override {
+    const std::uint64_t index_at = at();
+    for (const Connection& connection : connections_) put(connection.record);
+    put(infos_.text());
+    put_anew(kBagMagic.size(), header(index_at));
+  }
 
-  RecordBytes content_;  ///< of the chunk that is being filled
-  std::map<std::size_t, RecordBytes> index_;
-  std::int64_t first_ns_ = 0;
-  std::int64_t last_ns_ = 0;
-  std::string packed_;
+  std::vector<Connection> connections_;
+  RecordBytes infos_;  ///< of the chunks that are written
 };
 
 }  // namespace

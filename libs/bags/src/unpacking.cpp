@@ -4,14 +4,13 @@
 #include <array>
 #include <bzlib.h>
 #include <cstring>
-#include <lz4frame.h>
 #include <memory>
 #include <utility>
-#include <zstd.h>
 
 #include <fmt/format.h>
 
 #include "lazy_library.hpp"
+#include "packing_libraries.hpp"
 
 namespace traverse::bags {
 
@@ -25,27 +24,6 @@ constexpr std::array<std::pair<std::string_view, Packing>, 5> kNames{{{"none", P
 
 constexpr std::size_t kLeastRoom = 64 << 10;
 constexpr const char* kMissing = "the packed bytes end too early";
-
-struct Lz4 {
-  LazyLibrary library{"liblz4.so.1", "liblz4-1"};
-  decltype(&::LZ4F_createDecompressionContext) create =
-      TRAVERSE_LAZY_FUNCTION(library, LZ4F_createDecompressionContext);
-  decltype(&::LZ4F_freeDecompressionContext) release =
-      TRAVERSE_LAZY_FUNCTION(library, LZ4F_freeDecompressionContext);
-  decltype(&::LZ4F_decompress) decompress = TRAVERSE_LAZY_FUNCTION(library, LZ4F_decompress);
-  decltype(&::LZ4F_isError) is_error = TRAVERSE_LAZY_FUNCTION(library, LZ4F_isError);
-  decltype(&::LZ4F_getErrorName) error_name = TRAVERSE_LAZY_FUNCTION(library, LZ4F_getErrorName);
-};
-
-struct Zstd {
-  LazyLibrary library{"libzstd.so.1", "libzstd1"};
-  decltype(&::ZSTD_createDStream) create = TRAVERSE_LAZY_FUNCTION(library, ZSTD_createDStream);
-  decltype(&::ZSTD_freeDStream) release = TRAVERSE_LAZY_FUNCTION(library, ZSTD_freeDStream);
-  decltype(&::ZSTD_decompressStream) decompress =
-      TRAVERSE_LAZY_FUNCTION(library, ZSTD_decompressStream);
-  decltype(&::ZSTD_isError) is_error = TRAVERSE_LAZY_FUNCTION(library, ZSTD_isError);
-  decltype(&::ZSTD_getErrorName) error_name = TRAVERSE_LAZY_FUNCTION(library, ZSTD_getErrorName);
-};
 
 struct Bz2 {
   LazyLibrary library{"libbz2.so.1.0", "libbz2-1.0"};
@@ -101,7 +79,7 @@ std::string unpack_by_steps(std::span<const std::byte> packed, std::uint64_t sta
 
 std::string unpack_lz4(std::span<const std::byte> packed, std::uint64_t stated,
                        std::vector<std::byte>& bytes) {
-  static const Lz4 lz4;
+  const Lz4Library& lz4 = lz4_library();
   LZ4F_dctx* made = nullptr;
   if (lz4.is_error(lz4.create(&made, LZ4F_VERSION)) != 0) return "lz4 gives no context";
   const std::unique_ptr<LZ4F_dctx, decltype(lz4.release)> context(made, lz4.release);
@@ -123,7 +101,7 @@ std::string unpack_lz4(std::span<const std::byte> packed, std::uint64_t stated,
 
 std::string unpack_zstd(std::span<const std::byte> packed, std::uint64_t stated,
                         std::vector<std::byte>& bytes) {
-  static const Zstd zstd;
+  const ZstdLibrary& zstd = zstd_library();
   const std::unique_ptr<ZSTD_DStream, decltype(zstd.release)> stream(zstd.create(), zstd.release);
   if (stream == nullptr) return "zstd gives no context";
   return unpack_by_steps(

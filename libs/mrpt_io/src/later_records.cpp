@@ -1,14 +1,11 @@
 #include "later_records.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <iostream>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include <mrpt/core/aligned_std_vector.h>
@@ -161,11 +158,9 @@ class Xyzirt final : public LaterPoints {
   void serializeFrom(CArchive& archive, std::uint8_t version) override {
     if (version != 0) refuse_version("CPointsMapXYZIRT", version);
     read_coordinates(archive);
-    const auto intensity = read_counted<float>(archive);
-    ring = read_counted<std::uint16_t>(archive);
-    time = read_counted<float>(archive);
-    has_intensity = !intensity.empty() && intensity.size() == m_x.size();
-    if (has_intensity) std::copy(intensity.begin(), intensity.end(), m_intensity.begin());
+    keep("intensity", read_counted<float>(archive));
+    keep("ring", read_counted<std::uint16_t>(archive));
+    keep("t", read_counted<float>(archive));
     read_options(archive);
   }
 };
@@ -186,47 +181,17 @@ class GenericPoints final : public LaterPoints {
  private:
   template <typename Number>
   void read_fields(CArchive& archive, std::uint8_t version) {
-    const auto fields = archive.ReadAs<std::uint32_t>();
-    for (std::uint32_t i = 0; i < fields; ++i) {
+    const auto count = archive.ReadAs<std::uint32_t>();
+    for (std::uint32_t i = 0; i < count; ++i) {
       std::string name;
       archive >> name;
       if (version >= 3) {
-        take(name, read_counted<Number>(archive));
+        keep(name, read_counted<Number>(archive));
       } else {  // a container behind its own name and that of the type
         mrpt::aligned_std_vector<Number> values;
         archive >> values;
-        take(name, values);
+        keep(name, std::vector<Number>(values.begin(), values.end()));
       }
-    }
-  }
-
-  /// MRPT's names: "intensity", "ring", "t".
-  template <typename Numbers>
-  void take(std::string_view name, const Numbers& values) {
-    using Number = typename Numbers::value_type;
-    if (values.size() != m_x.size()) return;
-    if (name == "intensity") {
-      std::transform(values.begin(), values.end(), m_intensity.begin(),
-                     [](Number value) { return static_cast<float>(value); });
-      has_intensity = !values.empty();
-    } else if (name == "ring" || name == "t" || name == "time") {
-      take_attribute(name == "ring", values);
-    }
-  }
-
-  template <typename Numbers>
-  void take_attribute(bool is_ring, const Numbers& values) {
-    using Number = typename Numbers::value_type;
-    if constexpr (std::is_floating_point_v<Number>) {
-      if (is_ring) return;
-      time.assign(values.size(), 0);
-      std::transform(values.begin(), values.end(), time.begin(),
-                     [](Number value) { return static_cast<float>(value); });
-    } else {
-      if (!is_ring) return;
-      ring.assign(values.size(), 0);
-      std::transform(values.begin(), values.end(), ring.begin(),
-                     [](Number value) { return static_cast<std::uint16_t>(value); });
     }
   }
 };

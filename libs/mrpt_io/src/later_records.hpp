@@ -1,9 +1,13 @@
 #pragma once
 
-#include <cstdint>
+#include <algorithm>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <mrpt/maps/CPointsMapXYZI.h>
+
+#include "traverse/mrpt_io/lidar_observations.hpp"
 
 namespace traverse::mrpt_io {
 
@@ -21,8 +25,7 @@ void read_later_records();
 /// whatever takes one of those takes its points and intensities.
 class LaterPoints : public mrpt::maps::CPointsMapXYZI {
  public:
-  std::vector<std::uint16_t> ring;  ///< empty, or one a point
-  std::vector<float> time;          ///< seconds after the stamp; empty, or one a point
+  std::vector<NamedField> fields;  ///< each with one number a point
   bool has_intensity = false;
 
  protected:
@@ -30,7 +33,21 @@ class LaterPoints : public mrpt::maps::CPointsMapXYZI {
 
   /// Points, intensities and options are read by these, as MRPT stores them.
   void read_coordinates(mrpt::serialization::CArchive& archive);
+  /// Keeps what has one number a point, and of intensities a copy where MRPT has them.
+  template <typename Number>
+  void keep(const std::string& name, std::vector<Number> values);
   void read_options(mrpt::serialization::CArchive& archive);
 };
+
+template <typename Number>
+void LaterPoints::keep(const std::string& name, std::vector<Number> values) {
+  if (values.empty() || values.size() != m_x.size()) return;
+  if (name == "intensity") {
+    std::transform(values.begin(), values.end(), m_intensity.begin(),
+                   [](Number value) { return static_cast<float>(value); });
+    has_intensity = true;
+  }
+  fields.push_back({name, std::move(values)});
+}
 
 }  // namespace traverse::mrpt_io

@@ -8,7 +8,9 @@
 #include <numbers>
 #include <optional>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 #include <mrpt/io/lazy_load_path.h>
@@ -143,6 +145,28 @@ void load_guarded(const CObservationPointCloud& observation, const std::string& 
   }
 }
 
+/// Rings and times of the names that MRPT itself gives them.
+void take_own_fields(const std::vector<NamedField>& fields, LidarScan& scan) {
+  for (const NamedField& field : fields) {
+    std::visit(
+        [&](const auto& values) {
+          using Number = typename std::decay_t<decltype(values)>::value_type;
+          if constexpr (std::is_floating_point_v<Number>) {
+            if (field.name != "t" && field.name != "time") return;
+            scan.time.clear();
+            for (const Number value : values) scan.time.push_back(static_cast<float>(value));
+          } else {
+            if (field.name != "ring") return;
+            scan.ring.clear();
+            for (const Number value : values) {
+              scan.ring.push_back(static_cast<std::uint16_t>(value));
+            }
+          }
+        },
+        field.values);
+  }
+}
+
 /// A 2-D scanner's or a range image's columns.
 struct Columns {
   std::size_t count = 0;
@@ -201,16 +225,18 @@ LidarScan take_scan(CObservationPointCloud& observation, const std::string& exte
   scan.y.assign(cloud.getPointsBufferRef_y().begin(), cloud.getPointsBufferRef_y().end());
   scan.z.assign(cloud.getPointsBufferRef_z().begin(), cloud.getPointsBufferRef_z().end());
   const auto* later = dynamic_cast<const LaterPoints*>(&cloud);
-  if (later != nullptr) {
-    if (later->ring.size() == scan.size()) scan.ring = later->ring;
-    if (later->time.size() == scan.size()) scan.time = later->time;
-  }
+  if (later != nullptr) take_own_fields(later->fields, scan);
   const auto* xyzi = dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&cloud);
   if (xyzi != nullptr && (later == nullptr || later->has_intensity)) {
     const auto& intensity = xyzi->getPointsBufferRef_intensity();
     scan.intensity.assign(intensity.begin(), intensity.end());
   }
   return scan;
+}
+
+const std::vector<NamedField>* named_fields(const CObservationPointCloud& observation) {
+  const auto* later = dynamic_cast<const LaterPoints*>(observation.pointcloud.get());
+  return later == nullptr ? nullptr : &later->fields;
 }
 
 LidarScan take_scan(const CObservationRotatingScan& observation,

@@ -100,7 +100,7 @@ std::optional<RawlogRecord> RawlogReader::next() {
     stream_.expect_counts_up_to(holds_only_counts(short_name) ? std::optional(kMostCounted)
                                                               : std::nullopt);
     auto archive = mrpt::serialization::archiveFrom(stream_);
-    RawlogRecord record{archive.ReadObject(), short_name, place()};
+    RawlogRecord record{archive.ReadObject(), short_name, place(), record_begin_, records_};
     ++records_;
     return record;
   } catch (const std::exception&) {

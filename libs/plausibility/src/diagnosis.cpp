@@ -22,6 +22,7 @@ constexpr std::array kDescriptions{
     DiagnosisDescription{"cannot_open", "a reader takes it, but it or a statement is wrong"},
     DiagnosisDescription{"no_measurements", "nothing in it can be used"},
     DiagnosisDescription{"no_pipeline", "the pipeline needs what is not in it"},
+    DiagnosisDescription{"run_lost", "what was estimated of it is lost, as a run would be"},
     DiagnosisDescription{"deskew_off", "the times of points are not known"},
     DiagnosisDescription{"rings_unknown", "the rings of points are not known"},
     DiagnosisDescription{"records_skipped", "some records cannot be used"},

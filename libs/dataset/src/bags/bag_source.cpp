@@ -51,6 +51,18 @@ fs::path bag_sidecar(const fs::path& path) {
                                 : fs::path(path).replace_extension(".traverse.yaml");
 }
 
+/// What is known of a topic of clouds or packets.
+struct BagLidar {
+  ProfileChoice profile;
+  PointFields fields;  ///< of clouds
+};
+
+/// What takes a topic's packets, and an Ouster's IMU's with them.
+struct PacketsOfTopic {
+  packets::PacketLidars lidars;
+  PacketTally tally;
+};
+
 struct BagBookmark : Bookmark {
   std::shared_ptr<const bags::Position> position;
   ArrivalQueue queue;
@@ -110,9 +122,9 @@ class BagSource : public Source {
     beside_ = {};
     container_->begin(channels);
     stated_ = {statements_->imu, statements_->gnss};
-    lidars_ = packets::PacketLidars(ouster_ ? std::optional(ouster_->metadata) : std::nullopt,
-                                    chosen_.lidar ? topics_[*chosen_.lidar].topic : "lidar");
-    tally_ = {};
+    packets_.clear();
+    for (const std::size_t topic : lidar_topics()) add_packets_of(topics_[topic].topic);
+    if (packets_.empty()) add_packets_of("lidar");
     queue_ = ArrivalQueue();
   }
 
@@ -157,9 +169,31 @@ class BagSource : public Source {
                      found.empty() ? "none with messages" : found);
   }
 
+  std::vector<std::size_t> lidar_topics() const {
+    std::vector<std::size_t> all;
+    if (chosen_.lidar) all.push_back(*chosen_.lidar);
+    all.insert(all.end(), chosen_.more_lidars.begin(), chosen_.more_lidars.end());
+    return all;
+  }
+
+  void add_packets_of(const std::string& label) {
+    packets_.push_back(
+        {packets::PacketLidars(ouster_ ? std::optional(ouster_->metadata) : std::nullopt, label),
+         {}});
+  }
+
+  /// Those of the topic; an IMU's are the first lidar's.
+  PacketsOfTopic& packets_of(const PeekedTopic& topic) {
+    const std::vector<std::size_t> lidars = lidar_topics();
+    for (std::size_t i = 0; i < lidars.size(); ++i) {
+      if (&topics_[lidars[i]] == &topic) return packets_[i];
+    }
+    return packets_.front();
+  }
+
   void mount(const OpenOptions& options) {
-    if (chosen_.lidar) {
-      topics_[*chosen_.lidar].packets ? learn_from_packets(options) : learn_lidar(options);
+    for (const std::size_t topic : lidar_topics()) {
+      topics_[topic].packets ? learn_from_packets(topic, options) : learn_lidar(topic, options);
     }
     const auto frame_of = [&](const std::optional<std::size_t>& topic) {
       return topic ? topics_[*topic].frame : std::string();
@@ -179,17 +213,20 @@ class BagSource : public Source {
       apply_vehicle(statements_, info_.rig.sensors.back());
       if (peeked.wheels) measure_wheels(peeked, info_.rig.sensors.back());
       if (kind == SensorKind::kLidar) {
-        if (profile_.profile.name == sensors::LidarProfile().name) profile_.profile.name = label;
-        info_.rig.sensors.back().lidar = profile_.profile;
-        add_profile_facts(profile_, statements_, "", info_.facts);
-        if (!peeked.packets) info_.expected_scans = static_cast<std::size_t>(peeked.count);
+        ProfileChoice& choice = lidars_.at(*topic).profile;
+        if (choice.profile.name == sensors::LidarProfile().name) choice.profile.name = label;
+        info_.rig.sensors.back().lidar = choice.profile;
+        add_profile_facts(choice, statements_, prefix_of(*topic), info_.facts);
+        if (!peeked.packets && topic == chosen_.lidar) {
+          info_.expected_scans = static_cast<std::size_t>(peeked.count);
+        }
       }
       if (!peeked.has_stamps) {
         info_.facts.push_back(
             {"stamps of " + peeked.topic, "log times", "those of its headers are zero"});
       }
     };
-    add(chosen_.lidar, SensorKind::kLidar);
+    for (const std::size_t topic : lidar_topics()) add(topic, SensorKind::kLidar);
     add(chosen_.imu, SensorKind::kImu);
     add(chosen_.gnss, SensorKind::kGnss);
     add(chosen_.wheels, SensorKind::kWheels);
@@ -213,13 +250,19 @@ class BagSource : public Source {
                            reason});
   }
 
-  void learn_from_packets(const OpenOptions& options) {
-    const PacketTopic& found = *topics_[*chosen_.lidar].packets;
+  /// Tells one lidar's facts from another's.
+  std::string prefix_of(std::size_t lidar) const {
+    return lidar == chosen_.lidar ? "" : topics_[lidar].topic + ": ";
+  }
+
+  void learn_from_packets(std::size_t topic, const OpenOptions& options) {
+    const PacketTopic& found = *topics_[topic].packets;
     const packets::PacketLidar& lidar = found.lidar;
-    profile_ = choose_profile(
+    lidars_[topic].profile = choose_profile(
         statements_, options.share_folder,
         {lidar.profile, fmt::format("by its packets: {} {}", lidar.maker, lidar.model)});
-    info_.facts.push_back(clock_fact(found.has_absolute_clock, ""));
+    note_idle_point_statements(statements_, prefix_of(topic), kPacketsTellAll, info_.facts);
+    info_.facts.push_back(clock_fact(found.has_absolute_clock, prefix_of(topic)));
   }
 
   /// It is in one housing with the lidar whose topic is taken, as far as that is an Ouster's.
@@ -238,8 +281,9 @@ class BagSource : public Source {
   }
 
   /// What the first scans tell of the lidar and of its points' fields.
-  void learn_lidar(const OpenOptions& options) {
-    const PeekedTopic& topic = topics_[*chosen_.lidar];
+  void learn_lidar(std::size_t index, const OpenOptions& options) {
+    const PeekedTopic& topic = topics_[index];
+    PointFields& fields = lidars_[index].fields;
     container_->begin({topic.channel});
     // Their points stay where they are: the bytes are kept as long as they are looked at.
     std::vector<std::vector<std::byte>> kept;
@@ -268,10 +312,10 @@ class BagSource : public Source {
     from_data.reason = "default; from the first scans";
     from_data.profile.time_source = sensors::TimeSource::kNone;
     if (!samples.empty()) {
-      interpret(samples, stamps);
+      fields = interpret(samples, stamps, prefix_of(index));
       const PointSample& example = samples.back();
-      if (fields_.time) from_data.profile.time_source = sensors::TimeSource::kData;
-      PointFields without_times = fields_;
+      if (fields.time) from_data.profile.time_source = sensors::TimeSource::kData;
+      PointFields without_times = fields;
       without_times.time.reset();
       without_times.needs_rings = false;
       const auto scan = scan_of_columns(example.points, example.stamp, without_times, path_);
@@ -280,26 +324,29 @@ class BagSource : public Source {
       } else {
         from_data.profile.rings = *std::max_element(scan.ring.begin(), scan.ring.end()) + 1;
       }
-      from_data.profile.intensity_full_scale = full_scale(example.points, scan.intensity);
+      from_data.profile.intensity_full_scale = full_scale(example.points, fields, scan.intensity);
     }
-    profile_ = choose_profile(statements_, options.share_folder, from_data);
-    fields_.needs_rings = profile_.profile.ring_source == sensors::RingSource::kData;
+    lidars_[index].profile = choose_profile(statements_, options.share_folder, from_data);
+    const sensors::LidarProfile& profile = lidars_[index].profile.profile;
+    fields.needs_rings = profile.ring_source == sensors::RingSource::kData;
     // Points that are moved already need no times; they are kept where somebody says what they are.
     const bool is_of_no_use = info_.motion_compensated && !statements_.states("lidar.time_unit");
-    if (is_of_no_use || profile_.profile.time_source != sensors::TimeSource::kData) {
-      fields_.time.reset();
+    if (is_of_no_use || profile.time_source != sensors::TimeSource::kData) {
+      fields.time.reset();
     }
   }
 
-  double full_scale(const PointColumns& points, const std::vector<float>& intensity) const {
-    const PointColumn* column = points.find(fields_.intensity);
+  static double full_scale(const PointColumns& points, const PointFields& fields,
+                           const std::vector<float>& intensity) {
+    const PointColumn* column = points.find(fields.intensity);
     if (column == nullptr || intensity.empty()) return sensors::LidarProfile().intensity_full_scale;
     if (column->type == ScalarType::kUint16) return 65535;
     if (column->type == ScalarType::kUint8) return 255;
     return *std::max_element(intensity.begin(), intensity.end()) <= 1 ? 1 : 255;
   }
 
-  void interpret(const std::vector<PointSample>& samples, const std::vector<Stamp>& stamps) {
+  PointFields interpret(const std::vector<PointSample>& samples, const std::vector<Stamp>& stamps,
+                        const std::string& prefix) {
     PointFieldHints hints = stated_point_fields(statements_);
     std::vector<double> intervals;
     for (std::size_t i = 1; i < stamps.size(); ++i) {
@@ -308,7 +355,13 @@ class BagSource : public Source {
     const double interval = intervals.empty() ? 0 : statistics::median(intervals);
     if (interval > 0) hints.scan_interval_s = interval;
     hints.recording = path_;
-    fields_ = interpret_points(samples, hints, info_.facts);
+    std::vector<Fact> facts;
+    PointFields fields = interpret_points(samples, hints, facts);
+    for (Fact& fact : facts) {
+      fact.name = prefix + fact.name;
+      info_.facts.push_back(std::move(fact));
+    }
+    return fields;
   }
 
   void read_reference(const OpenOptions& options, const sensors::MountedSensor* lidar) {
@@ -328,9 +381,11 @@ class BagSource : public Source {
     if (!message) {
       if (takes_packets()) {
         const std::string place = "the end";
-        lidars_.finish(packets_to(place));
-        tally_.tell(lidars_, place, queue_.skipped());
-        note_packets(lidars_, info_.facts);
+        for (PacketsOfTopic& packets : packets_) {
+          packets.lidars.finish(packets_to(place));
+          packets.tally.tell(packets.lidars, place, queue_.skipped());
+          note_packets(packets.lidars, info_.facts);
+        }
       }
       queue_.finish();
       queue_.note_steps(info_.facts);
@@ -400,10 +455,11 @@ class BagSource : public Source {
                    const std::string& place) {
     const bags::MessageValue value = topic.reader->read(message.bytes);
     const packets::PacketLidars::Sink sink = packets_to(place);
+    PacketsOfTopic& of_topic = packets_of(topic);
     for_each_packet(value, Stamp{message.log_time_ns}, [&](packets::Bytes packet, Stamp arrival) {
-      lidars_.add(topic.topic, packet, arrival, sink);
+      of_topic.lidars.add(topic.topic, packet, arrival, sink);
     });
-    tally_.tell(lidars_, place, queue_.skipped());
+    of_topic.tally.tell(of_topic.lidars, place, queue_.skipped());
     queue_.note_steps(info_.facts);
   }
 
@@ -432,6 +488,10 @@ class BagSource : public Source {
     };
   }
 
+  const PointFields& fields_of(const PeekedTopic& topic) const {
+    return lidars_.at(static_cast<std::size_t>(&topic - topics_.data())).fields;
+  }
+
   std::optional<Measurement> measurement_of(const PeekedTopic& topic, const std::string& label,
                                             const bags::Message& message) {
     const bags::MessageValue value = topic.reader->read(message.bytes);
@@ -440,8 +500,8 @@ class BagSource : public Source {
       case TopicKind::kCloud: {
         const PointColumns points = columns_of(topic.type, value);
         if (points.points == 0) throw UnusableMessage("scan without points");
-        auto scan =
-            in_metres(scan_of_columns(points, stamp, fields_, path_), statements_->point_unit_m);
+        auto scan = in_metres(scan_of_columns(points, stamp, fields_of(topic), path_),
+                              statements_->point_unit_m);
         scan.sensor = label;
         return std::make_shared<const sensors::LidarScan>(std::move(scan));
       }
@@ -498,14 +558,12 @@ class BagSource : public Source {
   FrameTree frames_;
   ChosenTopics chosen_;
   std::map<std::size_t, std::string> labels_;  ///< of the sensors, by topic
-  ProfileChoice profile_;
-  PointFields fields_;
+  std::map<std::size_t, BagLidar> lidars_;     ///< by topic
   std::optional<OusterChoice> ouster_;
   std::optional<Reference> reference_;
 
   StatedMeasurements stated_;
-  packets::PacketLidars lidars_;
-  PacketTally tally_;
+  std::vector<PacketsOfTopic> packets_;  ///< of each lidar, in the order of lidar_topics()
   ArrivalQueue queue_;
   CompanionReadings beside_;
 };

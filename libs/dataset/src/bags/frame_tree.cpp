@@ -25,20 +25,27 @@ std::string FrameTree::name_of(std::string_view frame) {
   return std::string(frame.starts_with('/') ? frame.substr(1) : frame);
 }
 
-void FrameTree::add_static(const std::string& parent, const std::string& child,
+bool FrameTree::add_static(const std::string& parent, const std::string& child,
                            const Pose3& T_parent_child) {
-  if (links_.size() < kMostFrames) links_[child] = {parent, T_parent_child, true, false};
+  if (links_.size() >= kMostFrames) return false;
+  const auto known = links_.find(child);
+  const bool is_new = known == links_.end() || !known->second.is_static ||
+                      known->second.parent != parent ||
+                      !are_same(known->second.T_parent_child, T_parent_child);
+  links_[child] = {parent, T_parent_child, true, false};
+  return is_new;
 }
 
-void FrameTree::add_moving(const std::string& parent, const std::string& child,
+bool FrameTree::add_moving(const std::string& parent, const std::string& child,
                            const Pose3& T_parent_child) {
-  if (links_.size() >= kMostFrames) return;
+  if (links_.size() >= kMostFrames) return false;
   const auto [known, is_new] =
       links_.try_emplace(child, Link{parent, T_parent_child, false, false});
-  if (is_new || known->second.is_static) return;
-  if (known->second.parent != parent || !are_same(known->second.T_parent_child, T_parent_child)) {
-    known->second.has_moved = true;
-  }
+  if (is_new) return true;
+  Link& link = known->second;
+  if (link.is_static || link.has_moved) return false;
+  link.has_moved = link.parent != parent || !are_same(link.T_parent_child, T_parent_child);
+  return link.has_moved;
 }
 
 bool FrameTree::has(const std::string& frame) const {

@@ -14,10 +14,10 @@ namespace traverse::dataset {
 class FrameTree {
  public:
   /// Of a transform that is told twice the later one holds if it is static; one that is told as
-  /// moving and changes is no link at all.
-  void add_static(const std::string& parent, const std::string& child,
+  /// moving and changes is no link at all. \returns whether it tells something new
+  bool add_static(const std::string& parent, const std::string& child,
                   const geometry::Pose3& T_parent_child);
-  void add_moving(const std::string& parent, const std::string& child,
+  bool add_moving(const std::string& parent, const std::string& child,
                   const geometry::Pose3& T_parent_child);
 
   bool has(const std::string& frame) const;

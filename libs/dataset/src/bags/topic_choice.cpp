@@ -14,6 +14,7 @@
 #include "bags/companion_topics.hpp"
 #include "point_clouds/point_fields.hpp"
 #include "point_clouds/point_names.hpp"
+#include "recording/lidars_as_one.hpp"
 
 namespace traverse::dataset {
 
@@ -24,10 +25,32 @@ constexpr std::size_t kPeekedMessages = 5000;
 constexpr std::uint64_t kPeekedBytes = 64 << 20;
 constexpr std::size_t kMostTransforms = 20'000;
 constexpr std::size_t kMovingLooked = 2000;
-// They stand among everything else, which is unpacked with them.
+// They stand among everything else, which is unpacked with them: how long they are looked at, and
+// how long when they tell nothing new and all sensors are linked.
 constexpr std::int64_t kMovingLooked_ns = 10'000'000'000;
+constexpr std::int64_t kRepeatedLooked_ns = 2'000'000'000;
+constexpr std::size_t kRepeatedStatic = 10;  // messages
 
 bool is_static(const PeekedTopic& topic) { return topic.topic.ends_with("tf_static"); }
+
+/// Frames that are no sensor's: what is told in them has been moved there by somebody.
+bool is_world(const std::string& frame) {
+  constexpr std::array<std::string_view, 5> kWorlds{"map", "odom", "world", "camera_init", "earth"};
+  return std::find(kWorlds.begin(), kWorlds.end(), frame) != kWorlds.end();
+}
+
+/// Whether the frames of all sensors that were seen hang together.
+bool are_linked(const FrameTree& frames, const std::vector<PeekedTopic>& topics) {
+  std::optional<std::string> first;
+  for (const PeekedTopic& topic : topics) {
+    const bool is_sensor = topic.kind == TopicKind::kCloud || topic.kind == TopicKind::kImu ||
+                           topic.kind == TopicKind::kGnss || topic.kind == TopicKind::kPackets;
+    if (!is_sensor || !topic.was_seen || topic.frame.empty() || is_world(topic.frame)) continue;
+    if (!first) first = topic.frame;
+    if (!frames.find(*first, topic.frame)) return false;
+  }
+  return true;
+}
 
 /// Publishers of joints may be several on one topic: an arm's, and the wheels'.
 constexpr std::size_t kPeekedJoints = 20;
@@ -228,23 +251,32 @@ FrameTree read_frames(bags::MessageContainer& container, const std::vector<Peeke
     container.begin(channels);
     const std::size_t most = are_static ? kMostTransforms : kMovingLooked;
     std::optional<std::int64_t> first_ns;
+    std::int64_t last_new_ns = 0;
+    std::size_t repeated = 0;
     for (std::size_t count = 0; count < most; ++count) {
       const auto message = container.next();
       if (!message) break;
-      if (!first_ns) first_ns = message->log_time_ns;
+      if (!first_ns) first_ns = last_new_ns = message->log_time_ns;
       if (!are_static && message->log_time_ns - *first_ns > kMovingLooked_ns) break;
+      const bool is_repeated = are_static ? repeated >= kRepeatedStatic
+                                          : message->log_time_ns - last_new_ns > kRepeatedLooked_ns;
+      if (is_repeated && are_linked(frames, topics)) break;
+      bool is_new = false;
       try {
         for_each_transform(topics[message->channel].reader->read(message->bytes),
                            [&](const std::string& parent, const std::string& child,
                                const geometry::Pose3& T, geometry::Stamp) {
                              const std::string above = FrameTree::name_of(parent);
                              const std::string below = FrameTree::name_of(child);
-                             are_static ? frames.add_static(above, below, T)
-                                        : frames.add_moving(above, below, T);
+                             const bool is_news = are_static ? frames.add_static(above, below, T)
+                                                             : frames.add_moving(above, below, T);
+                             is_new = is_new || is_news;
                            });
       } catch (const std::runtime_error&) {
         continue;  // what it would have linked is told as not linked
       }
+      repeated = is_new ? 0 : repeated + 1;
+      if (is_new) last_new_ns = message->log_time_ns;
     }
   }
   return frames;
@@ -253,12 +285,6 @@ FrameTree read_frames(bags::MessageContainer& container, const std::vector<Peeke
 namespace {
 
 using Better = std::function<bool(const PeekedTopic&, const PeekedTopic&)>;
-
-/// Frames that are no sensor's: what is told in them has been moved there by somebody.
-bool is_world(const std::string& frame) {
-  constexpr std::array<std::string_view, 5> kWorlds{"map", "odom", "world", "camera_init", "earth"};
-  return std::find(kWorlds.begin(), kWorlds.end(), frame) != kWorlds.end();
-}
 
 struct SensorOfBag {
   const char* key;   ///< of the statement: "lidar.topic"
@@ -338,6 +364,13 @@ std::optional<std::size_t> choose(const SensorOfBag& sensor, const std::vector<P
     const bool is_other = fits(topics[i]) && i != *best && info.topics[i].use.empty();
     if (is_other && info.topics[i].why.empty()) {
       info.topics[i].why = fmt::format("{}={} takes it", sensor.key, topics[i].topic);
+      const bool is_another_lidar = sensor.name == std::string_view("lidar") &&
+                                    topics[i].frame != topics[*best].frame &&
+                                    !is_world(topics[i].frame);
+      if (is_another_lidar) {
+        info.topics[i].why += fmt::format("; '{}={},{}' takes both as one", kLidarsAsOne,
+                                          topics[*best].topic, topics[i].topic);
+      }
     }
   }
   return best;
@@ -357,6 +390,43 @@ std::optional<std::size_t> companion_of(const std::optional<std::size_t>& sensor
     return i;
   }
   return std::nullopt;
+}
+
+/// Takes the topics that are stated to be used as one in place of the one that was chosen.
+void choose_lidars_as_one(const std::vector<PeekedTopic>& topics, const Statements& statements,
+                          ChosenTopics& chosen, RecordingInfo& info) {
+  const auto origin = statements.origin(kLidarsAsOne);
+  if (!origin) return;
+  const std::vector<std::string> labels = labels_of_lidars(statements->lidars);
+  if (labels.empty()) return;
+  const std::vector<TopicKind> kinds{TopicKind::kCloud, TopicKind::kPackets};
+  if (chosen.lidar) info.topics[*chosen.lidar].use.clear();
+  std::vector<std::size_t> indices;
+  for (const std::string& label : labels) {
+    const auto found = std::find_if(topics.begin(), topics.end(), [&](const PeekedTopic& topic) {
+      return topic.topic == label && std::count(kinds.begin(), kinds.end(), topic.kind) > 0;
+    });
+    const auto index = static_cast<std::size_t>(found - topics.begin());
+    if (found == topics.end() || std::count(indices.begin(), indices.end(), index) > 0) {
+      throw statements.error(kLidarsAsOne, "different topics of " + names_of(topics, kinds),
+                             files::in_quotes(label));
+    }
+    if (!found->fault.empty()) {
+      throw statements.error(kLidarsAsOne, "topics that can be used",
+                             fmt::format("{}: {}", label, found->fault));
+    }
+    indices.push_back(index);
+    info.topics[index].use = "lidar";
+    info.topics[index].why = *origin;
+  }
+  for (std::size_t i = 0; i < topics.size(); ++i) {
+    const bool is_other = std::count(kinds.begin(), kinds.end(), topics[i].kind) > 0 &&
+                          std::count(indices.begin(), indices.end(), i) == 0;
+    if (is_other && topics[i].fault.empty()) info.topics[i].why = "it is not among those stated";
+  }
+  std::erase_if(info.facts, [](const Fact& fact) { return fact.name == "lidar"; });
+  chosen.lidar = indices.front();
+  chosen.more_lidars.assign(indices.begin() + 1, indices.end());
 }
 
 std::string not_seen(const PeekedTopic& topic) {
@@ -400,6 +470,7 @@ ChosenTopics choose_topics(const std::vector<PeekedTopic>& topics, const FrameTr
                             topic.has_rings ? "with" : "without", told_count(topic));
        }},
       topics, statements, info);
+  choose_lidars_as_one(topics, statements, chosen, info);
   const std::string lidar_frame = chosen.lidar ? topics[*chosen.lidar].frame : "";
   chosen.imu = choose({"imu.topic",
                        "IMU",

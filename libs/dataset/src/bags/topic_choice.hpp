@@ -43,6 +43,7 @@ struct PeekedTopic {
 /// The topics of a recording that are used, as indices.
 struct ChosenTopics {
   std::optional<std::size_t> lidar;
+  std::vector<std::size_t> more_lidars;  ///< that are stated to be used as one with it
   std::optional<std::size_t> imu;
   std::optional<std::size_t> gnss;
   std::optional<std::size_t> wheels;

@@ -14,6 +14,7 @@
 
 #include "captures/ouster_choice.hpp"
 #include "captures/packet_tally.hpp"
+#include "point_clouds/point_statements.hpp"
 #include "recording/arrival_queue.hpp"
 #include "recording/folder_opening.hpp"
 #include "recording/unused_files.hpp"
@@ -129,6 +130,7 @@ class CaptureSource : public Source {
           {lidar.label, SensorKind::kLidar, geometry::Pose3::identity(), choice.profile});
       const std::string prefix = is_first ? "" : lidar.label + ": ";
       add_profile_facts(choice, statements_, prefix, info_.facts);
+      note_idle_point_statements(statements_, prefix, kPacketsTellAll, info_.facts);
       const auto& clock = lidars_.clock(info_.rig.sensors.size() - 1);
       info_.facts.push_back(clock_fact(clock.is_absolute(), prefix));
     }

@@ -24,6 +24,9 @@ class PacketTally {
 void tell_skipped(const char* reason, std::size_t count, std::size_t& told,
                   const std::string& place, SkippedRecords& skipped);
 
+/// Why nothing that is stated of fields of points holds of packets.
+inline constexpr const char* kPacketsTellAll = "packets tell ring and time of each firing";
+
 /// Whose clock the stamps of a lidar's scans are of. \param prefix as in add_profile_facts()
 Fact clock_fact(bool is_absolute, const std::string& prefix);
 

@@ -4,6 +4,7 @@
 
 #include "kitti/kitti_bin.hpp"
 #include "point_clouds/bin_points.hpp"
+#include "point_clouds/point_statements.hpp"
 #include "recording/folder_opening.hpp"
 
 namespace traverse::dataset {
@@ -18,6 +19,8 @@ ScanReader mount_kitti_lidar(RecordingInfo& info, const std::vector<std::filesys
         [layout](const std::filesystem::path& file) { return read_bin_points(file, layout); },
         statements, options);
   }
+  note_idle_point_statements(statements, "", "the files hold coordinates and intensity alone",
+                             info.facts);
   ProfileChoice profile = installed_profile(options.share_folder, "hdl64e_kitti");
   profile.reason += ", default for KITTI";
   mount_lidar(info, kVelodyne, choose_profile(statements, options.share_folder, std::move(profile)),

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "point_clouds/point_fields.hpp"
 #include "recording/statements.hpp"
 
@@ -89,6 +91,17 @@ PointFieldHints stated_point_fields(const Statements& statements) {
     hints.time_stated_in += *origin;
   }
   return hints;
+}
+
+void note_idle_point_statements(const Statements& statements, const std::string& prefix,
+                                const std::string& why, std::vector<Fact>& facts) {
+  for (const char* key : {"lidar.ring_field", "lidar.time_field", "lidar.time_unit",
+                          "lidar.time_zero", "point_time_unit_s"}) {
+    const auto origin = statements.origin(key);
+    if (!origin) continue;
+    facts.push_back({fmt::format("{}{}", prefix, key), "not used",
+                     fmt::format("{}; stated in {}", why, *origin)});
+  }
 }
 
 }  // namespace traverse::dataset

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "traverse/config/binder.hpp"
+#include "traverse/dataset/source.hpp"
 
 namespace traverse::dataset {
 
@@ -24,5 +26,10 @@ struct PointFieldHints;
 /// What is stated of the fields of points, with point_time_unit_s. Interval and place are left to
 /// the caller.
 PointFieldHints stated_point_fields(const Statements& statements);
+
+/// Tells what is stated of fields where the points of a lidar have none with names.
+/// \param prefix tells one lidar's facts from another's \param why there are none
+void note_idle_point_statements(const Statements& statements, const std::string& prefix,
+                                const std::string& why, std::vector<Fact>& facts);
 
 }  // namespace traverse::dataset

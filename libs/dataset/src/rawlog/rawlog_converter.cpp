@@ -196,8 +196,10 @@ WheelOdometry wheel_odometry(const mrpt::obs::CObservationOdometry& observation)
 
 }  // namespace
 
-RawlogConverter::RawlogConverter(RawlogSensors& sensors, std::string external_folder)
+RawlogConverter::RawlogConverter(RawlogSensors& sensors, NamedPoints& named_points,
+                                 std::string external_folder)
     : sensors_(sensors),
+      named_points_(named_points),
       external_folder_(std::move(external_folder)),
       stated_(sensors.statements()->imu, sensors.statements()->gnss) {
   if (stated_.has_increments()) {
@@ -234,7 +236,7 @@ void RawlogConverter::add_observation(mrpt::obs::CObservation& observation,
     }
     if (!stamp)
       throw mrpt_io::UnusableObservation("no stamp in a record of " + class_of(observation));
-    result.measurements.push_back(measurement_from(observation, *stamp));
+    result.measurements.push_back(measurement_from(observation, *stamp, record));
   } catch (const mrpt_io::UnusableObservation& error) {
     result.skipped.push_back({error.what(), record.place});
   } catch (const files::InputError&) {
@@ -246,7 +248,8 @@ void RawlogConverter::add_observation(mrpt::obs::CObservation& observation,
   }
 }
 
-Measurement RawlogConverter::measurement_from(mrpt::obs::CObservation& observation, Stamp stamp) {
+Measurement RawlogConverter::measurement_from(mrpt::obs::CObservation& observation, Stamp stamp,
+                                              const mrpt_io::RawlogRecord& record) {
   const std::string& name = observation.sensorLabel;
   const Pose3 T_body_sensor = pose_of(observation);
 
@@ -257,7 +260,12 @@ Measurement RawlogConverter::measurement_from(mrpt::obs::CObservation& observati
   }
   if (auto* cloud = dynamic_cast<mrpt::obs::CObservationPointCloud*>(&observation)) {
     LidarScan scan = with_points(mrpt_io::take_scan(*cloud, external_folder_));
-    const auto& lidar = sensors_.lidar(name, T_body_sensor, mrpt_io::profile_of(*cloud, scan));
+    const auto* fields = mrpt_io::named_fields(*cloud);
+    if (fields != nullptr) {
+      scan = named_points_.interpret(*fields, std::move(scan), stamp, name, record);
+    }
+    const auto& lidar =
+        sensors_.lidar(name, T_body_sensor, mrpt_io::profile_of(*cloud, scan), fields != nullptr);
     return stamped(std::move(scan), stamp, lidar.label);
   }
   if (const auto* rotating = dynamic_cast<mrpt::obs::CObservationRotatingScan*>(&observation)) {

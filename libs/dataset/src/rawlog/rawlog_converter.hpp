@@ -8,6 +8,7 @@
 #include "traverse/mrpt_io/rawlog_reader.hpp"
 #include "traverse/sensors/measurement.hpp"
 
+#include "rawlog/named_points.hpp"
 #include "rawlog/rawlog_sensors.hpp"
 #include "recording/measurement_statements.hpp"
 
@@ -33,8 +34,9 @@ struct ConvertedRecord {
 /// of actions and sensory frames. Odometry increments of actions are added up.
 class RawlogConverter {
  public:
-  /// `sensors` must outlive this; point clouds stored outside the rawlog are in `external_folder`.
-  RawlogConverter(RawlogSensors& sensors, std::string external_folder);
+  /// `sensors` and `named_points` must outlive this; point clouds stored outside the rawlog are in
+  /// `external_folder`.
+  RawlogConverter(RawlogSensors& sensors, NamedPoints& named_points, std::string external_folder);
 
   ConvertedRecord convert(const mrpt_io::RawlogRecord& record);
 
@@ -49,14 +51,15 @@ class RawlogConverter {
  private:
   void add_observation(mrpt::obs::CObservation& observation, const mrpt_io::RawlogRecord& record,
                        ConvertedRecord& result);
-  sensors::Measurement measurement_from(mrpt::obs::CObservation& observation,
-                                        geometry::Stamp stamp);
+  sensors::Measurement measurement_from(mrpt::obs::CObservation& observation, geometry::Stamp stamp,
+                                        const mrpt_io::RawlogRecord& record);
   void add_actions(const mrpt::obs::CActionCollection& actions, const mrpt_io::RawlogRecord& record,
                    ConvertedRecord& result);
   void add_up(const mrpt::obs::CActionRobotMovement2D& action);
   void flush_odometry(geometry::Stamp stamp, ConvertedRecord& result);
 
   RawlogSensors& sensors_;
+  NamedPoints& named_points_;
   std::string external_folder_;
   StatedMeasurements stated_;
   State state_;

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "point_clouds/point_statements.hpp"
+
 namespace traverse::dataset {
 
 using sensors::SensorKind;
@@ -36,7 +38,8 @@ std::string RawlogSensors::label_of(SensorKind kind, const std::string& name,
 
 const sensors::MountedSensor& RawlogSensors::lidar(const std::string& name,
                                                    const geometry::Pose3& T_body_sensor,
-                                                   const sensors::LidarProfile& from_data) {
+                                                   const sensors::LidarProfile& from_data,
+                                                   bool has_named_fields) {
   if (const auto known = labels_.find({SensorKind::kLidar, name}); known != labels_.end()) {
     return *info_.rig.find(known->second);
   }
@@ -46,7 +49,12 @@ const sensors::MountedSensor& RawlogSensors::lidar(const std::string& name,
   const std::string label = label_of(SensorKind::kLidar, name, T_body_sensor);
   if (choice.profile.name == sensors::LidarProfile().name) choice.profile.name = label;
   info_.rig.sensors.back().lidar = choice.profile;
-  add_profile_facts(choice, statements_, is_first ? "" : label + ": ", info_.facts);
+  const std::string prefix = is_first ? "" : label + ": ";
+  add_profile_facts(choice, statements_, prefix, info_.facts);
+  if (!has_named_fields) {
+    note_idle_point_statements(statements_, prefix, "the rawlog stores rings and times of its own",
+                               info_.facts);
+  }
   if (!is_first && !statements_.states("lidars")) {
     const std::string& first = info_.rig.first(SensorKind::kLidar)->label;
     info_.facts.push_back(

@@ -26,8 +26,10 @@ class RawlogSensors {
   const Statements& statements() const { return statements_; }
 
   /// The same for a lidar; `from_data` is what its first observation tells of it.
+  /// \param has_named_fields so that what is stated of fields holds of its points
   const sensors::MountedSensor& lidar(const std::string& name, const geometry::Pose3& T_body_sensor,
-                                      const sensors::LidarProfile& from_data);
+                                      const sensors::LidarProfile& from_data,
+                                      bool has_named_fields = false);
 
  private:
   std::string unique_label(sensors::SensorKind kind, const std::string& name) const;

@@ -9,6 +9,7 @@
 #include "traverse/files/input_error.hpp"
 #include "traverse/mrpt_io/rawlog_reader.hpp"
 
+#include "rawlog/named_points.hpp"
 #include "rawlog/rawlog_converter.hpp"
 #include "rawlog/rawlog_sensors.hpp"
 #include "recording/arrival_queue.hpp"
@@ -55,8 +56,9 @@ class RawlogSource : public Source {
         external_folder_(external_folder_of(file)),
         info_(begin_info(file, format, statements_, "vehicle")),
         sensors_(statements_, options.share_folder, info_),
+        named_points_(file, external_folder_, statements_, info_),
         reader_(std::make_unique<mrpt_io::RawlogReader>(file)),
-        converter_(std::in_place, sensors_, external_folder_) {
+        converter_(std::in_place, sensors_, named_points_, external_folder_) {
     set_motion_compensation(info_, statements_, false, "default, not stated");
     preview();
     set_camera(info_, statements_, {});
@@ -80,7 +82,7 @@ class RawlogSource : public Source {
 
   void rewind() override {
     reader_ = std::make_unique<mrpt_io::RawlogReader>(file_);
-    converter_.emplace(sensors_, external_folder_);
+    converter_.emplace(sensors_, named_points_, external_folder_);
     queue_ = ArrivalQueue();
   }
 
@@ -146,6 +148,7 @@ class RawlogSource : public Source {
   std::string external_folder_;
   RecordingInfo info_;
   RawlogSensors sensors_;
+  NamedPoints named_points_;
   std::optional<Reference> reference_;
 
   std::unique_ptr<mrpt_io::RawlogReader> reader_;

@@ -35,6 +35,10 @@ RecordingInfo begin_info(const fs::path& path, std::string_view format,
   if (statements.states("lidars")) {
     info.facts.push_back({kLidarsAsOne, statements->lidars, *statements.origin("lidars")});
   }
+  if (statements.states("lidars_late_s")) {
+    info.facts.push_back(
+        {kLidarsLate, statements->lidars_late_s, *statements.origin("lidars_late_s")});
+  }
   for (const std::string_view code : files::split_words(statements->accept)) {
     info.accepted_contradictions.emplace_back(code);
   }

@@ -18,6 +18,8 @@
 #include "traverse/sensors/vertical_correction.hpp"
 
 #include "point_clouds/scan_completion.hpp"
+#include "recording/lidar_clock.hpp"
+#include "recording/lidar_returns.hpp"
 
 namespace traverse::dataset {
 
@@ -32,25 +34,8 @@ using sensors::SensorKind;
 namespace {
 
 constexpr double kNs = 1e-9;
+constexpr double kMostStatedLate_s = 10;
 constexpr double kAbsent = 1.5;  ///< sweeps without the first lidar's after which it is silent
-
-/// What one lidar returned, in the frame of the first.
-struct Returns {
-  std::vector<float> x, y, z;
-  std::vector<float> intensity;
-  std::vector<std::uint16_t> ring;
-  std::vector<std::int64_t> ns;  ///< when
-
-  std::size_t size() const { return x.size(); }
-  void move_to(Returns& to, std::size_t i) const {
-    to.x.push_back(x[i]);
-    to.y.push_back(y[i]);
-    to.z.push_back(z[i]);
-    to.intensity.push_back(intensity[i]);
-    to.ring.push_back(ring[i]);
-    to.ns.push_back(ns[i]);
-  }
-};
 
 /// A lidar that is one of those used as one.
 struct PartLidar {
@@ -59,6 +44,7 @@ struct PartLidar {
   Pose3 T_first_lidar;
   std::size_t first_ring = 0;
   double to_full_scale = 1;  ///< of the first lidar's intensities
+  std::int64_t late_ns = 0;  ///< its stamps, against those of the first
 };
 
 /// When a sweep of the first lidar began, and what it is stamped with.
@@ -66,16 +52,6 @@ struct Sweep {
   std::int64_t begin_ns = 0;
   Stamp stamp;
 };
-
-std::vector<std::string> labels_in(const std::string& list) {
-  std::vector<std::string> labels;
-  for (const auto label : files::split_cells(list, ',')) {
-    const auto first = label.find_first_not_of(' ');
-    if (first == std::string_view::npos) continue;
-    labels.emplace_back(label.substr(first, label.find_last_not_of(' ') - first + 1));
-  }
-  return labels;
-}
 
 std::string lidars_of(const sensors::Rig& rig) {
   std::string text;
@@ -86,12 +62,24 @@ std::string lidars_of(const sensors::Rig& rig) {
   return text.empty() ? "none" : text;
 }
 
+/// Shares scans and returns with the source and with its other bookmarks.
+struct MergedBookmark : Bookmark {
+  std::shared_ptr<const Bookmark> place;
+  std::multimap<std::int64_t, Measurement> held;
+  std::deque<Sweep> sweeps;
+  std::deque<std::shared_ptr<const LidarReturns>> waiting;
+  std::optional<std::int64_t> next_begin_ns;
+  std::int64_t heard_ns = 0;
+  bool at_end = false;
+};
+
 class LidarsAsOne final : public Source {
  public:
   LidarsAsOne(std::unique_ptr<Source> source, const std::vector<std::string>& labels)
       : source_(std::move(source)), info_(source_->info()) {
     for (const std::string& label : labels) add_part(label);
     describe();
+    set_clocks();
   }
 
   const RecordingInfo& info() const override {
@@ -131,6 +119,31 @@ class LidarsAsOne final : public Source {
     at_end_ = false;
   }
 
+  std::shared_ptr<const Bookmark> bookmark() const override {
+    auto place = source_->bookmark();
+    if (place == nullptr) return nullptr;
+    auto here = std::make_shared<MergedBookmark>();
+    here->place = std::move(place);
+    here->held = held_;
+    here->sweeps = sweeps_;
+    here->waiting = waiting_;
+    here->next_begin_ns = next_begin_ns_;
+    here->heard_ns = heard_ns_;
+    here->at_end = at_end_;
+    return here;
+  }
+
+  void return_to(const Bookmark& bookmark) override {
+    const auto& there = dynamic_cast<const MergedBookmark&>(bookmark);
+    source_->return_to(*there.place);
+    held_ = there.held;
+    sweeps_ = there.sweeps;
+    waiting_ = there.waiting;
+    next_begin_ns_ = there.next_begin_ns;
+    heard_ns_ = there.heard_ns;
+    at_end_ = there.at_end;
+  }
+
  private:
   void add_part(const std::string& label) {
     const MountedSensor* sensor = info_.rig.find(label);
@@ -139,7 +152,7 @@ class LidarsAsOne final : public Source {
                               "labels of different lidars, which are " + lidars_of(info_.rig),
                               files::in_quotes(label));
     }
-    PartLidar part{label, sensor->lidar.value_or(LidarProfile()), Pose3::identity(), 0, 1};
+    PartLidar part{label, sensor->lidar.value_or(LidarProfile()), Pose3::identity(), 0, 1, 0};
     if (!parts_.empty()) {
       part.T_first_lidar =
           info_.rig.find(parts_.front().label)->T_body_sensor.inverse() * sensor->T_body_sensor;
@@ -205,6 +218,127 @@ class LidarsAsOne final : public Source {
     }
   }
 
+  /// What is stated of the clocks, or else what the scans tell.
+  void set_clocks() {
+    if (parts_.size() < 2) return;
+    for (const Fact& fact : source_->info().facts) {
+      if (fact.name != kLidarsLate) continue;
+      take_stated_clocks(fact);
+      return;
+    }
+    measure_clocks();
+  }
+
+  void take_stated_clocks(const Fact& stated) {
+    const auto cells = files::split_cells(stated.value, ',');
+    std::vector<double> seconds;
+    for (const auto cell : cells) {
+      const auto value = files::parse_double(cell);
+      if (value && std::abs(*value) <= kMostStatedLate_s) seconds.push_back(*value);
+    }
+    if (seconds.size() != cells.size() || seconds.size() + 1 != parts_.size()) {
+      throw files::InputError(
+          info_.path, files::Place::key(kLidarsLate),
+          fmt::format("{} of seconds up to {}, one for each of `{}` but the first",
+                      parts_.size() == 2 ? "a number" : "numbers", kMostStatedLate_s, kLidarsAsOne),
+          files::in_quotes(stated.value));
+    }
+    for (std::size_t i = 0; i < seconds.size(); ++i) {
+      parts_[i + 1].late_ns = std::llround(seconds[i] / kNs);
+    }
+  }
+
+  /// Sweeps of the first lidar and what the others measured, as far as they are needed together.
+  struct ReadAhead {
+    std::deque<LidarReturns> sweeps;
+    std::vector<LidarReturns> others;  ///< by part
+    std::size_t seen = 0;              ///< sweeps
+  };
+
+  /// From the beginning, as far as it takes; ends at the beginning.
+  void measure_clocks() {
+    constexpr std::size_t kMostSweeps = 300;
+    const Eigen::Vector3d ahead_first =
+        info_.rig.find(label_)->T_body_sensor.rotation.transpose() * Eigen::Vector3d::UnitX();
+    std::vector<LidarClock> clocks(parts_.size(), LidarClock(ahead_first));
+    ReadAhead ahead;
+    ahead.others.resize(parts_.size());
+    const bool has_times = !source_->info().motion_compensated;
+    while (has_times && ahead.seen < kMostSweeps) {
+      const auto measurement = source_->next();
+      if (!measurement) break;
+      const auto* scan = std::get_if<std::shared_ptr<const LidarScan>>(&*measurement);
+      const PartLidar* part = scan == nullptr ? nullptr : part_of((*scan)->sensor);
+      if (part == nullptr) continue;
+      if (!has_own_times(**scan, *part)) break;
+      read_ahead(**scan, *part, ahead, clocks);
+      const bool are_known = std::all_of(clocks.begin() + 1, clocks.end(),
+                                         [](const LidarClock& clock) { return clock.is_known(); });
+      if (are_known) break;
+    }
+    source_->rewind();
+    for (std::size_t i = 1; i < parts_.size(); ++i) tell_clock(parts_[i], clocks[i]);
+  }
+
+  static bool has_own_times(const LidarScan& scan, const PartLidar& part) {
+    return !derive_point_data(scan, part.profile).time.empty();
+  }
+
+  void read_ahead(const LidarScan& scan, const PartLidar& part, ReadAhead& ahead,
+                  std::vector<LidarClock>& clocks) {
+    constexpr std::size_t kHeld = 4;  // then the others were heard behind the second
+    constexpr std::size_t kApart = 3;
+    const auto index = static_cast<std::size_t>(&part - parts_.data());
+    LidarReturns returns = returns_of(scan, part);
+    if (index > 0) {
+      for (std::size_t i = 0; i < returns.size(); ++i) returns.move_to(ahead.others[index], i);
+      return;
+    }
+    if (returns.size() == 0) return;
+    ++ahead.seen;
+    ahead.sweeps.push_back(std::move(returns));
+    if (ahead.sweeps.size() < kHeld) return;
+    const auto begin_of = [](const LidarReturns& sweep) {
+      return *std::min_element(sweep.ns.begin(), sweep.ns.end());
+    };
+    const std::int64_t begin_ns = begin_of(ahead.sweeps[0]);
+    const std::int64_t end_ns = begin_of(ahead.sweeps[2]);
+    const std::int64_t kept_ns = begin_of(ahead.sweeps[kApart]);
+    const bool is_whole = end_ns - begin_ns < 3 * sweep_ns();
+    for (std::size_t other = 1; other < parts_.size(); ++other) {
+      LidarReturns during;
+      LidarReturns behind;
+      const LidarReturns& heard = ahead.others[other];
+      for (std::size_t i = 0; i < heard.size(); ++i) {
+        if (heard.ns[i] >= begin_ns && heard.ns[i] < end_ns) heard.move_to(during, i);
+        if (heard.ns[i] >= kept_ns) heard.move_to(behind, i);
+      }
+      if (is_whole) clocks[other].add(ahead.sweeps[0], ahead.sweeps[1], during);
+      ahead.others[other] = std::move(behind);
+    }
+    ahead.sweeps.erase(ahead.sweeps.begin(), ahead.sweeps.begin() + kApart);
+  }
+
+  void tell_clock(PartLidar& part, const LidarClock& clock) {
+    const std::string name = "clock of " + part.label;
+    const auto found = clock.lateness();
+    constexpr double kTold_s = 1e-3;  // a worse one would move more than it mends
+    if (!found || found->sigma_s > kTold_s) {
+      info_.facts.push_back({name, "taken to be that of " + parts_.front().label,
+                             fmt::format("too few sweeps in motion see the same; {} states how "
+                                         "late it is",
+                                         kLidarsLate)});
+      return;
+    }
+    part.late_ns = std::llround(found->late_s / kNs);
+    info_.facts.push_back(
+        {name,
+         fmt::format("{:.2f} ms late against {} (± {:.2f} ms)", found->late_s * 1e3,
+                     parts_.front().label, found->sigma_s * 1e3),
+         fmt::format("surfaces that both saw in {} pairs of sweeps in motion; {} states another",
+                     found->sweeps, kLidarsLate)});
+  }
+
   const PartLidar* part_of(const std::string& label) const {
     const auto found = std::find_if(parts_.begin(), parts_.end(),
                                     [&](const PartLidar& part) { return part.label == label; });
@@ -213,9 +347,16 @@ class LidarsAsOne final : public Source {
 
   std::int64_t sweep_ns() const { return std::llround(sweep_s_ / kNs); }
 
+  /// How long a return may come after others that were measured when it was.
+  std::int64_t slack_ns() const {
+    std::int64_t latest_ns = 0;
+    for (const PartLidar& part : parts_) latest_ns = std::max(latest_ns, std::abs(part.late_ns));
+    return 3 * sweep_ns() + latest_ns;
+  }
+
   /// Nothing that is not held yet has an earlier stamp.
   std::int64_t settled_ns() const {
-    std::int64_t settled = heard_ns_ - 3 * sweep_ns();
+    std::int64_t settled = heard_ns_ - slack_ns();
     if (!sweeps_.empty()) settled = std::min(settled, sweeps_.front().begin_ns);
     if (next_begin_ns_ && !waiting_.empty()) settled = std::min(settled, *next_begin_ns_);
     return settled;
@@ -241,7 +382,8 @@ class LidarsAsOne final : public Source {
     make_scans(heard_ns_);
   }
 
-  void take(const LidarScan& scan, const PartLidar& part) {
+  /// What a scan holds in the frame of the first lidar, by the first one's clock.
+  LidarReturns returns_of(const LidarScan& scan, const PartLidar& part) const {
     const DerivedPointData derived = derive_point_data(scan, part.profile);
     std::vector<float> x = scan.x;
     std::vector<float> y = scan.y;
@@ -251,22 +393,19 @@ class LidarsAsOne final : public Source {
                                  part.profile.vertical_correction_deg * geometry::kDegree);
     }
     const bool is_moved = source_->info().motion_compensated;
-    Returns returns;
-    const std::int64_t stamp_ns = scan.stamp.nanoseconds;
-    std::int64_t begin_ns = std::numeric_limits<std::int64_t>::max();
+    LidarReturns returns;
+    const std::int64_t stamp_ns = scan.stamp.nanoseconds - part.late_ns;
     for (std::size_t i = 0; i < scan.size(); ++i) {
       // Scans that were moved to their stamp, or whose times nobody knows, are of that moment.
       const double after_s =
           is_moved || derived.time.empty() ? 0 : static_cast<double>(derived.time[i]);
       if (std::isnan(after_s)) continue;
-      const std::int64_t ns = stamp_ns + std::llround(after_s / kNs);
       const Eigen::Vector3d p_lidar(x[i], y[i], z[i]);
       const double range = p_lidar.norm();
       if (!(range >= part.profile.min_range_m && range <= part.profile.max_range_m) || range == 0) {
         continue;
       }
       const Eigen::Vector3f p = (part.T_first_lidar * p_lidar).cast<float>();
-      begin_ns = std::min(begin_ns, ns);
       returns.x.push_back(p.x());
       returns.y.push_back(p.y());
       returns.z.push_back(p.z());
@@ -275,12 +414,18 @@ class LidarsAsOne final : public Source {
           static_cast<float>(part.to_full_scale * static_cast<double>(intensity)));
       const std::size_t ring = derived.ring.empty() ? 0 : derived.ring[i];
       returns.ring.push_back(static_cast<std::uint16_t>(part.first_ring + ring));
-      returns.ns.push_back(ns);
+      returns.ns.push_back(stamp_ns + std::llround(after_s / kNs));
     }
+    return returns;
+  }
+
+  void take(const LidarScan& scan, const PartLidar& part) {
+    LidarReturns returns = returns_of(scan, part);
     if (returns.size() == 0) return;
+    const std::int64_t begin_ns = *std::min_element(returns.ns.begin(), returns.ns.end());
     if (&part == &parts_.front()) sweeps_.push_back({begin_ns, scan.stamp});
     if (!next_begin_ns_) next_begin_ns_ = begin_ns;
-    waiting_.push_back(std::move(returns));
+    waiting_.push_back(std::make_shared<const LidarReturns>(std::move(returns)));
   }
 
   /// Makes the sweeps whose returns are all there when everything until `heard_ns` was heard.
@@ -289,7 +434,7 @@ class LidarsAsOne final : public Source {
     const auto absent = static_cast<std::int64_t>(kAbsent * static_cast<double>(sweep));
     while (!waiting_.empty() && next_begin_ns_) {
       const std::int64_t from_ns = *next_begin_ns_;
-      if (heard_ns - 3 * sweep < from_ns && !at_end_) return;
+      if (heard_ns - slack_ns() < from_ns && !at_end_) return;
       std::int64_t end_ns = from_ns + sweep;
       std::optional<Stamp> stamp;
       if (!sweeps_.empty() && sweeps_.front().begin_ns < from_ns + sweep / 2) {
@@ -312,8 +457,8 @@ class LidarsAsOne final : public Source {
   /// Where nobody measured anything for long, there is no sweep.
   void skip_silence() {
     std::int64_t earliest = std::numeric_limits<std::int64_t>::max();
-    for (const Returns& returns : waiting_) {
-      earliest = std::min(earliest, *std::min_element(returns.ns.begin(), returns.ns.end()));
+    for (const auto& returns : waiting_) {
+      earliest = std::min(earliest, *std::min_element(returns->ns.begin(), returns->ns.end()));
     }
     if (waiting_.empty()) {
       if (sweeps_.empty()) next_begin_ns_.reset();
@@ -326,14 +471,14 @@ class LidarsAsOne final : public Source {
 
   /// Of all returns before `end_ns` that wait.
   void make_scan(std::int64_t end_ns, Stamp stamp) {
-    Returns taken;
-    std::deque<Returns> left;
-    for (Returns& returns : waiting_) {
-      Returns rest;
-      for (std::size_t i = 0; i < returns.size(); ++i) {
-        returns.move_to(returns.ns[i] < end_ns ? taken : rest, i);
+    LidarReturns taken;
+    std::deque<std::shared_ptr<const LidarReturns>> left;
+    for (const auto& returns : waiting_) {
+      LidarReturns rest;
+      for (std::size_t i = 0; i < returns->size(); ++i) {
+        returns->move_to(returns->ns[i] < end_ns ? taken : rest, i);
       }
-      if (rest.size() > 0) left.push_back(std::move(rest));
+      if (rest.size() > 0) left.push_back(std::make_shared<const LidarReturns>(std::move(rest)));
     }
     waiting_ = std::move(left);
     if (taken.size() == 0) return;
@@ -361,7 +506,7 @@ class LidarsAsOne final : public Source {
 
   std::multimap<std::int64_t, Measurement> held_;  ///< by stamp
   std::deque<Sweep> sweeps_;                       ///< of the first lidar, not made into scans yet
-  std::deque<Returns> waiting_;
+  std::deque<std::shared_ptr<const LidarReturns>> waiting_;
   std::optional<std::int64_t> next_begin_ns_;  ///< of the sweep that is made next
   std::int64_t heard_ns_ = std::numeric_limits<std::int64_t>::min();
   bool at_end_ = false;
@@ -369,9 +514,22 @@ class LidarsAsOne final : public Source {
 
 }  // namespace
 
+std::vector<std::string> labels_of_lidars(const std::string& list) {
+  std::vector<std::string> labels;
+  for (const auto label : files::split_cells(list, ',')) {
+    const auto first = label.find_first_not_of(' ');
+    if (first == std::string_view::npos) continue;
+    labels.emplace_back(label.substr(first, label.find_last_not_of(' ') - first + 1));
+  }
+  return labels;
+}
+
 std::string with_list_as_text(const std::string& statement) {
-  const std::string key = std::string(kLidarsAsOne) + "=";
-  if (!statement.starts_with(key)) return statement;
+  const std::size_t equals = statement.find('=');
+  const std::string name = statement.substr(0, equals);
+  if (equals == std::string::npos || (name != kLidarsAsOne && name != kLidarsLate))
+    return statement;
+  const std::string key = name + "=";
   const std::string list = statement.substr(key.size());
   if (list.empty() || list.front() == '"' || list.front() == '\'') return statement;
   std::string text = key + "'";
@@ -382,7 +540,7 @@ std::string with_list_as_text(const std::string& statement) {
 std::unique_ptr<Source> with_lidars_as_one(std::unique_ptr<Source> source) {
   for (const Fact& fact : source->info().facts) {
     if (fact.name != kLidarsAsOne) continue;
-    const std::vector<std::string> labels = labels_in(fact.value);
+    const std::vector<std::string> labels = labels_of_lidars(fact.value);
     if (labels.empty()) continue;
     return std::make_unique<LidarsAsOne>(std::move(source), labels);
   }

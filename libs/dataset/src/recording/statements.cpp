@@ -47,6 +47,8 @@ void bind(Binder& b, StatedValues& v) {
          "the points of a scan are already deskewed to its stamp");
   b.text("sensor", v.sensor, "lidar profile: a name in share/sensors, or a file");
   b.text("lidars", v.lidars, "labels of lidars whose scans are used as one's, commas between");
+  b.text("lidars_late_s", v.lidars_late_s,
+         "by how much the stamps of each but the first are late, commas between; else as found");
   b.group("reference", "reference trajectory", [&](Binder& reference) {
     reference.text("file", v.reference_file, "relative to the recording's folder");
     reference.choice("format", v.reference_format, kTrajectoryFormatNames, "of the file");

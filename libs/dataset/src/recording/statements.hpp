@@ -40,7 +40,8 @@ struct StatedValues {
   std::string name;
   bool motion_compensated = false;
   std::string sensor;
-  std::string lidars;  ///< labels, commas between
+  std::string lidars;         ///< labels, commas between
+  std::string lidars_late_s;  ///< of all but the first, commas between
   std::string lidar_metadata;
   std::string reference_file;
   TrajectoryFormat reference_format = TrajectoryFormat::kAuto;

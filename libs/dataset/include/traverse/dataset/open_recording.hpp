@@ -50,8 +50,8 @@ namespace traverse::dataset {
 ///       delay_s: 0.2                a fix is of so long before its stamp
 ///     calibration: calib.txt        in KITTI's form: Tr, or Tr_velo_to_cam with R0_rect
 ///     body_frame: lidar             what reports call the body
-///     period_s: 0.1                 for folders without stamps
-///     first_stamp: 1317042145.964   for folders without stamps, seconds
+///     lidars: front,rear            that are used as one; lidars_late_s: 0.003   else as found
+///     first_stamp: 1317042145.964   seconds, and period_s: 0.1, for folders without stamps
 ///     vehicle:                      mounting in the body frame: x ahead, y left, z up
 ///       imu: {position_m: [0, 0, 0], roll_pitch_yaw_deg: [0, 0, 0]}
 ///       gnss: {position_m: [0, 0, 0], heading_offset_deg: 0}

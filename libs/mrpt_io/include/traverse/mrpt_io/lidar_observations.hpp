@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationPointCloud.h>
@@ -29,6 +32,18 @@ sensors::LidarScan take_scan(mrpt::obs::CObservationVelodyneScan& observation);
 /// \throws UnusableObservation
 sensors::LidarScan take_scan(mrpt::obs::CObservationPointCloud& observation,
                              const std::string& external_folder);
+
+/// One number of every point of a cloud of MRPT's later versions, beside its coordinates.
+struct NamedField {
+  std::string name;  ///< MRPT's own are "intensity", "ring" and "t", in seconds after the stamp
+  std::variant<std::vector<float>, std::vector<double>, std::vector<std::uint8_t>,
+               std::vector<std::uint16_t>, std::vector<std::uint32_t>>
+      values;
+};
+
+/// Those of a cloud that names them, once take_scan() has loaded it, which takes those of MRPT's
+/// own names; null for any other cloud. They are the observation's.
+const std::vector<NamedField>* named_fields(const mrpt::obs::CObservationPointCloud& observation);
 
 /// The points of a range image, column after column; row i looks up by elevations_deg[i]. MRPT
 /// documents azimuths as counterclockwise and all columns as used, but its fromVelodyne() writes

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,8 +15,10 @@ namespace traverse::mrpt_io {
 /// One object of a rawlog.
 struct RawlogRecord {
   mrpt::serialization::CSerializable::Ptr object;
-  std::string class_name;  ///< without namespace
-  std::string place;       ///< "record 12, byte 3456"
+  std::string class_name;   ///< without namespace
+  std::string place;        ///< "record 12, byte 3456"
+  std::uint64_t begin = 0;  ///< the byte of the same, uncompressed
+  std::size_t number = 0;   ///< and its number
 };
 
 /// Reads the objects of a rawlog one after the other. The format has no lengths: behind a record
