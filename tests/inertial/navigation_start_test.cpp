@@ -133,6 +133,24 @@ TEST(NavigationStart, ACourseIsTakenAtTheSpeedAtWhichItIsExactEnough) {
   }
 }
 
+TEST(NavigationStart, AStepOfTheReceiverIsNoCourse) {
+  for (const double at_s : {0.5, 1.0, 2.5}) {  // while it creeps along the x axis
+    NavigationStart begin = navigation_start();
+    feed_imu(begin, -1, 0.05, true);
+    std::optional<FirstState> first;
+    for (int k = 0; k < 100 && !first; ++k) {
+      const double t = 0.1 * k;
+      feed_imu(begin, 0.05 + t, 0.15 + t, true);
+      const double noise = 0.01 * (k % 3 - 1);
+      MapFix fix = map_fix(0.1 + t, 0.04 * t * t + noise, (t < at_s ? 0.0 : 0.15) - noise);
+      fix.covariance = 1e-4 * Eigen::Matrix3d::Identity();
+      first = begin.at_fix(fix);
+    }
+    ASSERT_TRUE(first.has_value()) << at_s;
+    EXPECT_NEAR(yaw_of(first->state), 0, 0.2) << at_s;
+  }
+}
+
 TEST(NavigationStart, FixesOfUnknownDeviationMustBeFarApart) {
   NavigationStart begin = navigation_start();
   feed_imu(begin, 0, 10, true);

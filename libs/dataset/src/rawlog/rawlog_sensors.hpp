@@ -29,6 +29,9 @@ class RawlogSensors {
   const sensors::MountedSensor& lidar(const std::string& name, const geometry::Pose3& T_body_sensor,
                                       const sensors::LidarProfile& from_data);
 
+  /// Says in the facts what a fix is taken to err by whose GGA quality alone tells it.
+  void note_gga_quality(const Eigen::Matrix3d& covariance_enu);
+
  private:
   std::string unique_label(sensors::SensorKind kind, const std::string& name) const;
 
