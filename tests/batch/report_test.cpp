@@ -69,15 +69,16 @@ TEST(BatchReport, SaysFirstHowItWentAndWhatFailed) {
 
 TEST(BatchReport, ShowsTheBestByEachMetric) {
   Made made;
-  made.leads = {{.metric = "ape_translation_rmse",
-                 .first = "floam",
-                 .second = "other",
-                 .mean = 0.25,
-                 .difference = 0.125,
-                 .interval = std::pair(0.05, 0.2),
-                 .better_on = 9,
-                 .recordings = 10},
-                {.metric = "mme", .first = "floam", .mean = -3}};
+  Lead lead;
+  lead.metric = "ape_translation_rmse";
+  lead.first = "floam";
+  lead.second = "other";
+  lead.mean = 0.25;
+  lead.difference = 0.125;
+  lead.interval = std::pair(0.05, 0.2);
+  lead.better_on = 9;
+  lead.recordings = 10;
+  made.leads = {lead};
   const std::string page =
       batch_page(made.data(), std::string(TRAVERSE_SOURCE_DIR) + "/reports/templates");
   EXPECT_THAT(page, AllOf(HasSubstr("floam leads with 0.25 m APE"), HasSubstr("id=\"leads\""),

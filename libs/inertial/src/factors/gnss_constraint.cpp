@@ -35,7 +35,8 @@ void GnssConstraint::constrain(FixedLagSmoother& smoother, const MapFix& told,
                            motion.acceleration_map};
   frame.gnss_residual_enu = GnssPositionResidual{antenna}(smoother.newest());
   if (options_.gate) judge_rejected(smoother, fix, first_sigma, frame, events);
-  if (options_.gate && fix.heading) judge_headings(smoother, fix, first_sigma, frame, events);
+  if (options_.gate && fix.heading)
+    judge_headings(smoother, fix, motion, first_sigma, frame, events);
   const double heading_residual =
       fix.heading ? HeadingResidual{*fix.heading}(smoother.newest())[0] : 0;
 
@@ -107,19 +108,23 @@ void GnssConstraint::judge_rejected(FixedLagSmoother& smoother, MapFix& fix,
 /// tell whatever the heading, is nearer to the right one; mounted otherwise than stated, antennas
 /// agree with each other and not with the way.
 void GnssConstraint::judge_headings(FixedLagSmoother& smoother, const MapFix& fix,
-                                    const NavState::Tangent& first_sigma, NavFrame& frame,
-                                    Events& events) {
-  constexpr double kLeastSpeed = 0.3;  // m/s
-  constexpr double kSure = 4;          // standard deviations of the velocity
-  constexpr double kOnItsWay = 0.25;   // rad
-  constexpr double kDoubt = 5;         // times the standard deviation that was believed
+                                    const BodyMotion& motion, const NavState::Tangent& first_sigma,
+                                    NavFrame& frame, Events& events) {
+  constexpr double kLeastOffset = 0.15;  // rad; less the estimate finds by itself
+  constexpr double kLeastSpeed = 0.3;    // m/s
+  constexpr double kArm_m = 2;           // from the rear axle to the IMU, which a turn swings aside
+  constexpr double kAside = 0.1;         // rad
+  constexpr double kSure = 4;            // standard deviations of the velocity
+  constexpr double kOnItsWay = 0.25;     // rad
+  constexpr double kDoubt = 5;           // times the standard deviation that was believed
   const auto offset = headings_.offset(options_.longest_rejection_s);
-  if (!offset || frame.restarted) return;
+  if (!offset || std::abs(*offset) < kLeastOffset || frame.restarted) return;
   const NavState& x = smoother.newest();
   const NavState::Matrix& P = smoother.covariance();
   const Eigen::Vector2d v = x.v_map.head<2>();
   const double v_sigma = std::sqrt(P.block<2, 2>(NavState::kVelocity, NavState::kVelocity).trace());
   if (v.norm() < std::max(kLeastSpeed, kSure * v_sigma)) return;
+  if (std::abs(motion.angular_rate.z()) * kArm_m > kAside * v.norm()) return;
   const auto off_its_way = [&](double heading) {
     return std::abs(std::remainder(std::atan2(v.y(), v.x()) - heading, std::numbers::pi));
   };

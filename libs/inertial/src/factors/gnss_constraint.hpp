@@ -37,7 +37,7 @@ class GnssConstraint {
  private:
   void judge_rejected(FixedLagSmoother& smoother, MapFix& fix, const NavState::Tangent& first_sigma,
                       NavFrame& frame, Events& events);
-  void judge_headings(FixedLagSmoother& smoother, const MapFix& fix,
+  void judge_headings(FixedLagSmoother& smoother, const MapFix& fix, const BodyMotion& motion,
                       const NavState::Tangent& first_sigma, NavFrame& frame, Events& events);
   void begin_again(FixedLagSmoother& smoother, const RejectedFixes::Line& line,
                    const NavState::Tangent& first_sigma) const;

@@ -191,6 +191,7 @@ double NavigationStart::step_m(std::size_t first) const {
   constexpr double kWavelength_m = 0.19;  // of L1
   constexpr std::size_t kLeast = 6;       // twice what the parabola takes
   constexpr double kOnePercent = 2.326;   // deviations of a normal distribution
+  constexpr double kUnseen = 3;           // deviations of a fix, near an end of the parabola
   const std::size_t count = fixes_.size() - first;
   if (count < kLeast) return kWavelength_m;
   const auto seconds = [&](std::size_t k) {
@@ -219,7 +220,9 @@ double NavigationStart::step_m(std::size_t first) const {
   const double rows = 2 * static_cast<double>(count) - 6;
   const double part = 2 / (9 * rows);
   const double bound = rows * std::pow(1 - part + kOnePercent * std::sqrt(part), 3);
-  return chi2 <= bound ? 0 : kWavelength_m;
+  const double sigma =
+      std::sqrt(fixes_.back().fix.covariance.topLeftCorner<2, 2>().diagonal().maxCoeff());
+  return chi2 <= bound ? std::min(kUnseen * sigma, kWavelength_m) : kWavelength_m;
 }
 
 /// The heading of a vehicle whose rear axle slips to no side, from the way of its antenna and the
