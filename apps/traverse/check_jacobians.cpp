@@ -118,22 +118,6 @@ std::vector<optimization::FactorKind> chosen(const CheckJacobiansArguments& argu
   return kinds;
 }
 
-/// A block's derivative as Forster et al. and the book write it, "dv/dbg1": of the residual of
-/// rotation, velocity or position, in a part of the state before or after; otherwise its own name.
-std::string book_name(const std::string& factor, const std::string& block) {
-  static const std::map<std::string, std::string> kRows{
-      {"inertial rotation", "dR"}, {"inertial velocity", "dv"}, {"inertial position", "dp"}};
-  static const std::map<std::string, std::string> kParts{{"rotation", "R"},
-                                                         {"position", "p"},
-                                                         {"velocity", "v"},
-                                                         {"gyro bias", "bg"},
-                                                         {"accelerometer bias", "ba"}};
-  const auto row = kRows.find(factor);
-  if (row == kRows.end()) return block;
-  const auto part = kParts.find(block.substr(0, block.size() - 2));  // without " i" or " j"
-  return fmt::format("{}/d{}{}", row->second, part->second, block.back() == 'i' ? 1 : 2);
-}
-
 /// The entries of a matrix beside those of another and their difference, a row a line.
 std::string blocks_text(const optimization::ShownBlock& block) {
   const auto entries = [](const Eigen::MatrixXd& matrix, Eigen::Index row, const char* form) {
@@ -165,7 +149,7 @@ void show_jacobians(const CheckJacobiansArguments& arguments) {
       for (const auto& block : shown.blocks) {
         const Eigen::MatrixXd difference = block.analytic - block.numeric;
         fmt::print("{}: analytic | automatic | numeric | analytic - numeric (at most {:.1e})\n{}\n",
-                   book_name(shown.factor, block.block), difference.cwiseAbs().maxCoeff(),
+                   pipeline::book_name(shown.factor, block.block), difference.cwiseAbs().maxCoeff(),
                    blocks_text(block));
       }
     }

@@ -20,6 +20,7 @@ struct Made {
   std::vector<VariantSummary> variants;
   std::optional<BaselineComparison> baseline;
   std::vector<ShownTable> tables;
+  std::vector<Lead> leads;
 
   Made() {
     plan.file = "/plans/night.yaml";
@@ -39,7 +40,7 @@ struct Made {
     variants = summarise(results, plan.budgets, plan.metrics.front());
   }
   ReportData data() const {
-    return {plan, results, variants, baseline, tables, std::nullopt, {"traverse", "batch"}};
+    return {plan, results, variants, baseline, tables, leads, {"traverse", "batch"}};
   }
 };
 
@@ -64,6 +65,24 @@ TEST(BatchReport, SaysFirstHowItWentAndWhatFailed) {
   EXPECT_THAT(whole, Not(HasSubstr("no scan </script>")));
   EXPECT_THAT(
       page, AllOf(Not(HasSubstr("<all>")), Not(HasSubstr("http://")), Not(HasSubstr("https://"))));
+}
+
+TEST(BatchReport, ShowsTheBestByEachMetric) {
+  Made made;
+  Lead lead;
+  lead.metric = "ape_translation_rmse";
+  lead.first = "floam";
+  lead.second = "other";
+  lead.mean = 0.25;
+  lead.difference = 0.125;
+  lead.interval = std::pair(0.05, 0.2);
+  lead.better_on = 9;
+  lead.recordings = 10;
+  made.leads = {lead};
+  const std::string page =
+      batch_page(made.data(), std::string(TRAVERSE_SOURCE_DIR) + "/reports/templates");
+  EXPECT_THAT(page, AllOf(HasSubstr("floam leads with 0.25 m APE"), HasSubstr("id=\"leads\""),
+                          HasSubstr("9 of 10 recordings"), HasSubstr("0.05 to 0.2")));
 }
 
 }  // namespace

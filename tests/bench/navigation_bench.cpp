@@ -45,6 +45,7 @@ void report_robot() {
   paired.pairing = inertial::Pairing::kPaired;
   inertial::NavigationOptions book = testing::shipped_two_frame(Trigger::kGnssAndWheels);
   book.gnss.level_pose = true;
+  book.wheels.form = inertial::WheelForm::kWorldVelocity;
   const std::vector<std::pair<std::string, inertial::NavigationOptions>> presets{
       {"gins-gnss", testing::shipped_two_frame(Trigger::kGnss)},
       {"gins-odom", testing::shipped_two_frame(Trigger::kGnssAndWheels)},
@@ -100,6 +101,7 @@ int main(int argc, char** argv) {
   report("gins-odom-paired", paired, with_headings, seconds);
   inertial::NavigationOptions book = testing::two_frame(inertial::Trigger::kGnssAndWheels, sensors);
   book.gnss.level_pose = true;
+  book.wheels.form = inertial::WheelForm::kWorldVelocity;
   report("gins-book", book, with_headings, seconds);
   inertial::NavigationOptions window = testing::window(sensors);
   report("gins-window", window, drive, seconds);

@@ -144,6 +144,43 @@ TEST(Rawlog, PointCloudsInTheFileOrInFilesOfTheirOwn) {
   EXPECT_EQ(source->info().rig.find("cloud")->lidar->intensity_full_scale, 1);
 }
 
+/// A fix of that quality code of GGA.
+CObservationGPS made_gga(double seconds, std::uint8_t quality) {
+  CObservationGPS fix;
+  fix.timestamp = mrpt_time(seconds);
+  fix.sensorLabel = "gps";
+  gnss::Message_NMEA_GGA message;
+  message.fields.fix_quality = quality;
+  message.fields.latitude_degrees = 36.5;
+  message.fields.longitude_degrees = -2.5;
+  fix.setMsg(message);
+  return fix;
+}
+
+TEST(Rawlog, SaysOnceWhatEachQualityOfFixesIsTakenFor) {
+  const TemporaryFolder folder;
+  {
+    RawlogMaker maker(folder / "a.rawlog");
+    for (const int k : {0, 1, 2, 3}) maker.add(made_gga(0.1 * k, k < 2 ? 4 : 5));
+    CObservationGPS told = made_gga(0.4, 1);  // whose own message says how exact it is
+    gnss::Message_NV_OEM6_BESTPOS best;
+    best.fields.solution_stat = gnss::nv_oem6_solution_status::SOL_COMPUTED;
+    best.fields.lat_sigma = best.fields.lon_sigma = best.fields.hgt_sigma = 0.5F;
+    told.setMsg(best);
+    maker.add(told);
+  }
+  const auto source = open(folder / "a.rawlog");
+  EXPECT_THAT(read_all(*source), SizeIs(5));
+  std::vector<std::string> facts;
+  for (const Fact& fact : source->info().facts) {
+    if (fact.name.starts_with("sigma of fixes")) facts.push_back(fact.name + ": " + fact.value);
+  }
+  EXPECT_THAT(facts, ElementsAre("sigma of fixes of GGA quality 4: 0.02 m horizontally, 0.04 m "
+                                 "vertically",
+                                 "sigma of fixes of GGA quality 5: 0.3 m horizontally, 0.6 m "
+                                 "vertically"));
+}
+
 TEST(Rawlog, PlanarScansImuGnssAndWheels) {
   CObservation2DRangeScan laser;
   laser.timestamp = mrpt_time(0);

@@ -40,7 +40,6 @@ inline inertial::NavigationOptions shipped_two_frame(inertial::Trigger trigger) 
   options.trigger = trigger;
   options.gnss.form = inertial::GnssForm::kPose;
   options.gnss.heading_deg = 1;
-  options.wheels.form = inertial::WheelForm::kWorldVelocity;
   options.wheels.use = trigger == inertial::Trigger::kGnssAndWheels;
   return options;
 }

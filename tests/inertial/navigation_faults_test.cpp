@@ -287,6 +287,27 @@ TEST(NavigationFaults, TheBooksRobotIsFollowedAsItIs) {
   }
 }
 
+/// Headings that are wrong alike begin it, and right ones find an estimate that does not believe
+/// them.
+TEST(NavigationFaults, HeadingsThatAgreeWithTheWayTurnAnEstimateThatDoesNot) {
+  for (const double off_deg : {-70.0, 40.0}) {
+    SimulatedDrive drive = simulate({}, rtk(), kSeconds);
+    for (auto& fix : drive.fixes) {
+      if (seconds_of(fix.stamp) < 3) *fix.heading_deg += off_deg;
+    }
+    const Errors errors = run(book(Trigger::kGnss, rtk()), drive);
+    EXPECT_LT(errors.end_m, 0.05) << off_deg << events_of(errors);
+    const auto rejected = errors.events.find("heading rejected by chi-square");
+    EXPECT_LT(rejected == errors.events.end() ? 0U : rejected->second, 150U) << off_deg;
+  }
+  // Antennas that stand otherwise than stated agree with each other, but not with the way.
+  SimulatedDrive turned = simulate({}, rtk(), kSeconds);
+  for (auto& fix : turned.fixes) *fix.heading_deg += 12;
+  const Errors errors = run(window(rtk()), turned);
+  EXPECT_EQ(errors.events.count("navigation begun again after too many headings were rejected"), 0U)
+      << events_of(errors);
+}
+
 /// The exercise's finding: with wheels the path jumps less often and less far at fixes.
 TEST(NavigationFaults, WheelsMakeJumpsFewerAndSmaller) {
 #ifdef TRAVERSE_SANITIZED

@@ -28,7 +28,6 @@ inline inertial::NavigationOptions two_frame(inertial::Trigger trigger,
   options.trigger = trigger;
   options.gnss.form = inertial::GnssForm::kPose;
   options.gnss.heading_deg = 1;
-  options.wheels.form = inertial::WheelForm::kWorldVelocity;
   options.wheels.forward_mps = 0.05;
   options.wheels.use = trigger == inertial::Trigger::kGnssAndWheels;
   return options;

@@ -2,12 +2,14 @@
 // fixes.
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "factors/imu_shaking.hpp"
 #include "factors/rejected_fixes.hpp"
+#include "factors/rejected_headings.hpp"
 #include "factors/wheel_jumps.hpp"
 #include "inertial/moment.hpp"
 #include "navigation/first_fixes.hpp"
@@ -49,6 +51,42 @@ TEST(RejectedFixes, ThatScatterAreAsGoodAsTheirScatter) {
   ASSERT_TRUE(line.has_value());
   EXPECT_NEAR(std::sqrt(line->of_fix(0, 0)), 3, 0.3);
   EXPECT_LT(std::abs(line->offset.x()), 3.3 * std::sqrt(line->of_offset(0, 0)));
+}
+
+TEST(RejectedHeadings, ThatAgreeSayWhatTheEstimateIsOffBy) {
+  const auto offset = [](double sigma, unsigned wrong_in_10, double off) {
+    RejectedHeadings headings;
+    std::mt19937 generator(6);
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> angle(-3, 3);
+    for (int k = 0; k < 60; ++k) {
+      const double noise = sigma * normal(generator);
+      const double wrong = angle(generator);
+      const bool is_wrong = generator() % 10 < wrong_in_10;
+      const double residual = is_wrong ? wrong : std::remainder(off + noise, 2 * std::numbers::pi);
+      headings.add(moment(0.1 * k), residual, sigma, std::abs(residual) > 3.3 * sigma);
+    }
+    return headings.offset(2);
+  };
+  for (const unsigned wrong_in_10 : {0U, 1U, 3U}) {
+    for (const double off : {0.5, -1.0, 3.14}) {
+      const auto found = offset(0.03, wrong_in_10, off);
+      ASSERT_TRUE(found.has_value()) << wrong_in_10;
+      EXPECT_NEAR(std::remainder(*found - off, 2 * std::numbers::pi), 0, 0.03) << wrong_in_10;
+    }
+    EXPECT_FALSE(offset(0.03, wrong_in_10, 0).has_value()) << "most are believed";
+  }
+  EXPECT_FALSE(offset(0.03, 10, 0.5).has_value()) << "they scatter";
+}
+
+TEST(RejectedHeadings, SayNothingBeforeTheirTime) {
+  RejectedHeadings headings;
+  for (int k = 0; k < 20; ++k) {
+    headings.add(moment(0.1 * k), 0.5, 0.01, true);
+    EXPECT_FALSE(headings.offset(2).has_value());
+  }
+  headings.add(moment(2), 0.5, 0.01, true);
+  EXPECT_TRUE(headings.offset(2).has_value());
 }
 
 TEST(WheelJumps, AWheelThatLocksIsToBlameUntilItGrips) {
@@ -165,8 +203,8 @@ TEST(HeadingScatter, SaysNothingOfAFewHeadings) {
 }
 
 /// Half a second of motion with noise of that deviation, after as much of rest.
-Preintegration::NoiseScale scale_of(double gyro, double force, double hz) {
-  ImuShaking shaking({2e-4, 2e-3, 2e-6, 1e-4});
+Preintegration::NoiseScale scale_of(double gyro, double force, double hz, bool is_asked = true) {
+  ImuShaking shaking({2e-4, 2e-3, 2e-6, 1e-4, is_asked});
   std::mt19937 generator(4);
   std::normal_distribution<double> normal;
   for (int k = 0; k < 2 * hz; ++k) {
@@ -194,6 +232,7 @@ TEST(ImuShaking, ScalesWhatIsToldByWhatReadingsScatterBy) {
     const auto shaken = scale_of(0.04, 1, hz);
     EXPECT_NEAR(shaken.gyro, 0.04 / std::sqrt(hz) / 2e-4, 0.2 * shaken.gyro);
     EXPECT_NEAR(shaken.accelerometer, 1 / std::sqrt(hz) / 2e-3, 0.2 * shaken.accelerometer);
+    EXPECT_EQ(scale_of(0.04, 1, hz, false).accelerometer, 1) << "it is the vehicle's motion";
   }
 }
 

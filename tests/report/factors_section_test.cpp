@@ -1,3 +1,7 @@
+#include <set>
+#include <string>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -47,6 +51,65 @@ TEST(FactorsSection, ShowsTheDifferencesAndWhetherTheyPass) {
   run.jacobians = made_audit(false);
   EXPECT_THAT(rendered_factors(run), AllOf(HasSubstr("fail a Jacobian is wrong"),
                                            HasSubstr("FAIL;"), Not(HasSubstr("every analytic"))));
+}
+
+/// Three frames of a navigation run that turns and gathers speed; the last began anew.
+RunData made_navigation() {
+  RunData run;
+  run.jacobians = made_audit(true);
+  std::vector<std::string> columns{"frame", "stamp_s", "restarted"};
+  for (const std::string axis : {"x", "y", "z"}) {
+    columns.push_back("gyro_bias_" + axis + "_rad_s");
+    columns.push_back("accelerometer_bias_" + axis + "_m_s2");
+  }
+  for (const std::string direction : {"east", "north", "up"}) {
+    columns.push_back("velocity_" + direction + "_mps");
+  }
+  run.frames = pipeline::FrameTable(columns);
+  for (const double k : {0.0, 1.0, 2.0}) {
+    run.frames.add_row(
+        {7 + k, 0.2 * k, k == 2 ? 1.0 : 0.0, 0.01, 0.1, -0.02, 0.2, 0.03, 0, 4 + k, 3, 0.1});
+    geometry::Pose3 pose;
+    pose.rotation = Eigen::AngleAxisd(0.1 * k, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    pose.translation = {0.9 * k, 0.6 * k, 0};
+    run.estimate.push_back(geometry::Stamp::from_seconds(0.2 * k), pose);
+  }
+  return run;
+}
+
+TEST(FactorsSection, ShowsTheInertialFactorAtAStateOfTheRun) {
+  Model model;
+  add_factors(made_navigation(), model);
+  const Json& table = model.json["tables"]["inertial_jacobians"];
+  ASSERT_EQ(table["rows"].size(), 14U * 3);
+  std::set<std::string> blocks;
+  for (const Json& row : table["rows"]) {
+    blocks.insert(row[0].get<std::string>());
+    for (int k = 2; k < 5; ++k) {
+      EXPECT_NEAR(row[k].get<double>(), row[k + 3].get<double>(), 1e-5) << row.dump();
+    }
+    EXPECT_LT(row[8].get<double>(), 1e-7) << row.dump();
+  }
+  EXPECT_THAT(blocks, ::testing::UnorderedElementsAre(
+                          "dR/dR1", "dR/dbg1", "dR/dR2", "dv/dR1", "dv/dv1", "dv/dbg1", "dv/dba1",
+                          "dv/dv2", "dp/dR1", "dp/dp1", "dp/dv1", "dp/dbg1", "dp/dba1", "dp/dp2"));
+  EXPECT_THAT(model.text("inertial_jacobians_title"),
+              AllOf(HasSubstr("The 14 blocks"), HasSubstr("frame 8")));
+}
+
+TEST(FactorsSection, ShowsNoInertialFactorWhereNoStateIsToldOrNoneFollowsAnother) {
+  RunData run;
+  run.jacobians = made_audit(true);
+  Model without;
+  add_factors(run, without);
+  EXPECT_FALSE(without.json["tables"].contains("inertial_jacobians"));
+
+  run = made_navigation();
+  run.frames = pipeline::FrameTable(run.frames.columns());
+  run.estimate = {};
+  Model empty;
+  add_factors(run, empty);
+  EXPECT_FALSE(empty.json["tables"].contains("inertial_jacobians"));
 }
 
 TEST(FactorsSection, ComparesTheDerivativesOfEachCase) {

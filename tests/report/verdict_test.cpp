@@ -132,7 +132,10 @@ TEST_F(Verdict, HealthyIsARunOfWhichNoSensorWasRejected) {
   gnss.used = 80;
   gnss.rejected = 2;
   run_.health.sensors = {gnss};
-  EXPECT_THAT(notices(), ::testing::ElementsAre(HasSubstr("2 of 82 readings of GNSS")));
+  EXPECT_THAT(notices(),
+              ::testing::ElementsAre(HasSubstr("2 of 82 readings of GNSS, no two in a row")));
+  run_.health.sensors.front().longest_rejected_s = 3.44;
+  EXPECT_THAT(notices(), ::testing::ElementsAre(HasSubstr("GNSS, in stretches of up to 3.4 s:")));
   judge(Health::kDegraded, "restarted", "The estimator gave up what it knew and began again once.");
   EXPECT_THAT(first_notice(), StartsWith("warn Degraded"));
   EXPECT_THAT(sentence(), Not(HasSubstr("nothing skipped")));

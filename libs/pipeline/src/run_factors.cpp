@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -40,11 +41,19 @@ inertial::NavState state_at(const RunContents& run, std::size_t row) {
 
 }  // namespace
 
+bool tells_states(const RunContents& run) {
+  return run.frames.has("velocity_east_mps") && run.frames.has("gyro_bias_x_rad_s");
+}
+
 std::vector<optimization::FactorKind> factor_kinds_of_run(const RunFolder& folder,
                                                           std::size_t frame) {
-  const RunContents run = read_run(folder, RunPart::kFrames);
-  if (!run.frames.has("velocity_east_mps") || !run.frames.has("gyro_bias_x_rad_s")) {
-    throw files::InputError(folder.frames(), files::Place::line(1),
+  return factor_kinds_of_run(read_run(folder, RunPart::kFrames), frame);
+}
+
+std::vector<optimization::FactorKind> factor_kinds_of_run(const RunContents& run,
+                                                          std::size_t frame) {
+  if (!tells_states(run)) {
+    throw files::InputError(run.folder.frames(), files::Place::line(1),
                             "the states of a navigation run of version 0.2 (velocity_east_mps, "
                             "gyro_bias_x_rad_s, ...)",
                             "others");
@@ -52,7 +61,7 @@ std::vector<optimization::FactorKind> factor_kinds_of_run(const RunFolder& folde
   const std::vector<double> numbers = run.frames.column("frame");
   const auto found = std::find(numbers.begin(), numbers.end(), static_cast<double>(frame));
   if (found == numbers.end() || found == numbers.begin()) {
-    throw files::InputError(folder.frames(), files::Place::whole_file(),
+    throw files::InputError(run.folder.frames(), files::Place::whole_file(),
                             numbers.size() < 2
                                 ? std::string("two frames")
                                 : fmt::format("a frame from {} to {}", numbers[1], numbers.back()),
@@ -61,6 +70,20 @@ std::vector<optimization::FactorKind> factor_kinds_of_run(const RunFolder& folde
   const auto row = static_cast<std::size_t>(found - numbers.begin());
   return inertial::inertial_kinds_between(state_at(run, row - 1), state_at(run, row),
                                           {0, 0, -kGravity_mps2});
+}
+
+std::string book_name(const std::string& factor, const std::string& block) {
+  static const std::map<std::string, std::string> kRows{
+      {"inertial rotation", "dR"}, {"inertial velocity", "dv"}, {"inertial position", "dp"}};
+  static const std::map<std::string, std::string> kParts{{"rotation", "R"},
+                                                         {"position", "p"},
+                                                         {"velocity", "v"},
+                                                         {"gyro bias", "bg"},
+                                                         {"accelerometer bias", "ba"}};
+  const auto row = kRows.find(factor);
+  if (row == kRows.end()) return block;
+  const auto part = kParts.find(block.substr(0, block.size() - 2));  // without " i" or " j"
+  return fmt::format("{}/d{}{}", row->second, part->second, block.back() == 'i' ? 1 : 2);
 }
 
 }  // namespace traverse::pipeline

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "traverse/pipeline/rejections_text.hpp"
 #include "traverse/statistics/quantile.hpp"
 
 #include "frame_evidence.hpp"
@@ -279,7 +280,9 @@ void judge_motion(const RunHealth& health, const FrameEvidence& frames, Reasons&
 void judge_sensor(const SensorUse& sensor, bool is_navigation, Reasons& reasons) {
   const bool is_lidar = sensor.kind == sensors::SensorKind::kLidar;
   if (!sensor.is_taken || is_lidar) return;  // frames tell of scans
-  const std::string of = fmt::format("{} ({})", sensor.label, sensors::name_of(sensor.kind));
+  const std::string_view kind = sensors::name_of(sensor.kind);
+  const std::string of =
+      sensor.label == kind ? sensor.label : fmt::format("{} ({})", sensor.label, kind);
   const std::size_t looked_at = sensor.used + sensor.rejected;
   if (sensor.read > 0 && looked_at == 0) {
     reasons.add(Health::kDegraded, "sensor_unused",
@@ -290,10 +293,10 @@ void judge_sensor(const SensorUse& sensor, bool is_navigation, Reasons& reasons)
   const double share = sensor.rejected_share();
   const bool is_place = is_navigation && sensor.kind == sensors::SensorKind::kGnss;
   if (share <= kTenth && sensor.longest_rejected_s <= kLongRejection_s) return;
-  reasons.add(is_place && share > kHalf ? Health::kLost : Health::kDegraded, "sensor_rejected",
-              fmt::format("{} of {} of {} were rejected ({}), for up to {} at once.",
-                          sensor.rejected, counted(looked_at, "reading"), of, percent(share),
-                          seconds_text(sensor.longest_rejected_s)));
+  reasons.add(
+      is_place && share > kHalf ? Health::kLost : Health::kDegraded, "sensor_rejected",
+      fmt::format("{} of {} of {} were rejected ({}), {}.", sensor.rejected,
+                  counted(looked_at, "reading"), of, percent(share), rejections_text(sensor)));
 }
 
 void judge_recording(const RunHealth& health, Reasons& reasons) {

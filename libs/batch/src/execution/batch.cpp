@@ -59,10 +59,14 @@ class ResultWriter {
     if (!tables.empty()) {
       files::write_text(folder_.tables(), tables_markdown(plan_, tables, made()));
     }
-    files::write_text(folder_.report(),
-                      batch_page({plan_, results_, variants, baseline, tables,
-                                  find_lead(plan_, results_, variants, folder_), options_.command},
-                                 options_.templates));
+    std::vector<Lead> leads;
+    for (const std::string& metric : plan_.metrics) {
+      const auto lead = find_lead(metric, results_, variants, folder_);
+      if (lead) leads.push_back(*lead);
+    }
+    files::write_text(folder_.report(), batch_page({plan_, results_, variants, baseline, tables,
+                                                    leads, options_.command},
+                                                   options_.templates));
     regressed_ = baseline ? count_regressions(*baseline) : 0;
     next_ = Clock::now() +
             std::max<Clock::duration>(kWriteEvery, kWritingShare * (Clock::now() - began));

@@ -1,5 +1,6 @@
 #include "results/lead.hpp"
 
+#include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <cstdint>
@@ -13,6 +14,7 @@
 #include "traverse/evaluation/json.hpp"
 #include "traverse/evaluation/relation.hpp"
 #include "traverse/files/input_error.hpp"
+#include "traverse/files/number_text.hpp"
 #include "traverse/pipeline/run_folder.hpp"
 
 namespace traverse::batch {
@@ -133,16 +135,25 @@ std::string with_unit(double value, const Metric& metric) {
 
 }  // namespace
 
-std::optional<Lead> find_lead(const Plan& plan, const Results& results,
+std::optional<Lead> find_lead(const std::string& metric, const Results& results,
                               const std::vector<VariantSummary>& variants,
                               const BatchFolder& folder) {
-  const std::string& metric = plan.metrics.front();
   std::vector<const VariantSummary*> with_metric;
   for (const VariantSummary& variant : variants) {
     if (variant.means.contains(metric)) with_metric.push_back(&variant);
   }
   if (with_metric.empty() || with_metric.front() != &variants.front()) return std::nullopt;
+  // That more of its runs are degraded makes a variant stand lower, and its figure no worse.
+  const auto as_usable = std::find_if(with_metric.begin(), with_metric.end(), [&](const auto* v) {
+    return v->ok < with_metric.front()->ok;
+  });
+  if (find_metric(metric)->lower_is_better) {
+    std::stable_sort(with_metric.begin(), as_usable, [&](const auto* a, const auto* b) {
+      return a->means.at(metric) < b->means.at(metric);
+    });
+  }
   Lead lead;
+  lead.metric = metric;
   lead.first = with_metric[0]->variant;
   lead.mean = with_metric[0]->means.at(metric);
   if (with_metric.size() < 2) return lead;
@@ -158,6 +169,8 @@ std::optional<Lead> find_lead(const Plan& plan, const Results& results,
     const auto of_second = second.find(recording);
     if (of_second != second.end()) {
       differences.push_back(of_second->second.mean() - of_first.mean());
+      ++lead.recordings;
+      if (differences.back() > 0) ++lead.better_on;
     }
   }
   const auto n = static_cast<double>(differences.size());
@@ -184,8 +197,8 @@ std::optional<Lead> find_lead(const Plan& plan, const Results& results,
   return lead;
 }
 
-std::string to_text(const Lead& lead, const std::string& metric_key) {
-  const Metric& metric = *find_metric(metric_key);
+std::string to_text(const Lead& lead) {
+  const Metric& metric = *find_metric(lead.metric);
   const std::string value = fmt::format("{} {}", with_unit(lead.mean, metric), metric.title);
   if (lead.second.empty()) return fmt::format("{} has {}", lead.first, value);
   const std::string differs =
@@ -199,6 +212,25 @@ std::string to_text(const Lead& lead, const std::string& metric_key) {
   }
   if (lead.is_sure()) return fmt::format("{} leads with {} ({})", lead.first, value, differs);
   return fmt::format("{} and {} are tied at {} ({})", lead.first, lead.second, value, differs);
+}
+
+page::Table leads_table(const std::vector<Lead>& leads) {
+  page::Table table("leads", "The best by each metric",
+                    {"metric", "best", "mean", "next", "more by", "95 %", "better on"});
+  for (const Lead& lead : leads) {
+    const Metric& metric = *find_metric(lead.metric);
+    if (!metric.lower_is_better || lead.second.empty()) continue;
+    const std::string interval =
+        lead.interval ? fmt::format("{:.2g} to {:.2g}", lead.interval->first, lead.interval->second)
+                      : "no interval";
+    const std::string on =
+        fmt::format("{} of {}", lead.better_on, files::plural(lead.recordings, "recording"));
+    table.add_row(
+        {metric.unit.empty() ? metric.title : fmt::format("{} [{}]", metric.title, metric.unit),
+         lead.is_sure() ? lead.first : lead.first + ", tied", lead.mean, lead.second,
+         lead.difference, interval, on});
+  }
+  return table;
 }
 
 }  // namespace traverse::batch

@@ -1,20 +1,22 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "traverse/batch/batch_folder.hpp"
-#include "traverse/batch/plan.hpp"
 #include "traverse/batch/results.hpp"
+#include "traverse/page/table.hpp"
 
 #include "results/summary.hpp"
 
 namespace traverse::batch {
 
-/// Whether the best variant is better than the next for sure, by the first metric of the plan.
+/// Whether the best variant by a metric is better than the next for sure.
 struct Lead {
+  std::string metric;
   std::string first;
   std::string second;     ///< empty: there is no other with the metric
   double mean = 0;        ///< of the first, over the recordings
@@ -23,18 +25,24 @@ struct Lead {
   /// recordings and more Student's t over them (paired); of fewer the paired moving-block bootstrap
   /// along each, which knows what varies in these drives, not between drives.
   std::optional<std::pair<double, double>> interval;
-  bool has_more_ok = false;  ///< the second has fewer runs that are ok: that alone makes the lead
+  std::size_t better_on = 0;   ///< recordings on which the first is better
+  std::size_t recordings = 0;  ///< that both have
+  bool has_more_ok = false;    ///< the second has fewer runs that are ok: that alone makes the lead
 
   bool is_sure() const { return has_more_ok || (interval && interval->first > 0); }
 };
 
-/// Nothing without a run that has the metric.
-std::optional<Lead> find_lead(const Plan& plan, const Results& results,
+/// The lead by a metric among the variants of which most runs are usable; nothing if the first of
+/// `variants`, which stand as summarise() has them, does not have the metric.
+std::optional<Lead> find_lead(const std::string& metric, const Results& results,
                               const std::vector<VariantSummary>& variants,
                               const BatchFolder& folder);
 
+/// A row a metric of which less is better: the best variant, the next, and by how much.
+page::Table leads_table(const std::vector<Lead>& leads);
+
 /// "floam leads with 0.041 m APE (loam 0.012 m more, 95 % 0.008 to 0.016)", "floam and loam are
 /// tied at ...", as a part of a sentence.
-std::string to_text(const Lead& lead, const std::string& metric);
+std::string to_text(const Lead& lead);
 
 }  // namespace traverse::batch

@@ -54,7 +54,9 @@ std::string verdict(const ReportData& data, const Counts& counts) {
   std::string text =
       fmt::format("{} of {} ok", counts.ok, plural(data.results.jobs().size(), "run"));
   if (counts.degraded > 0) text += fmt::format(", {} degraded", counts.degraded);
-  if (data.lead) text += "; " + to_text(*data.lead, data.plan.metrics.front());
+  const bool has_lead =
+      !data.leads.empty() && data.leads.front().metric == data.plan.metrics.front();
+  if (has_lead) text += "; " + to_text(data.leads.front());
   if (counts.over_budget > 0) text += fmt::format("; {} over budget", counts.over_budget);
   return text + ".";
 }
@@ -254,6 +256,8 @@ std::string batch_page(const ReportData& data, const std::filesystem::path& temp
   parts.set("headlines", headlines(data, counts));
   parts.set("notices", notices(data, counts));
   parts.set("rank_title", find_metric(data.plan.metrics.front())->title);
+  const page::Table leads = leads_table(data.leads);
+  parts.set("table_leads", leads.empty() ? Data(false) : leads.data());
   if (data.baseline) {
     parts.set("baseline_source", told(data.baseline->source));
     parts.set("baseline_rule", kBaselineRule);

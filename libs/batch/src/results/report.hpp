@@ -22,7 +22,7 @@ struct ReportData {
   const std::vector<VariantSummary>& variants;
   const std::optional<BaselineComparison>& baseline;
   const std::vector<ShownTable>& tables;
-  std::optional<Lead> lead;
+  std::vector<Lead> leads;  ///< by the metrics of the plan that the best variants have
   std::vector<std::string> command;
 };
 

@@ -28,6 +28,7 @@
 #include "point_clouds/point_statements.hpp"
 #include "recording/arrival_queue.hpp"
 #include "recording/folder_opening.hpp"
+#include "recording/gga_quality_fact.hpp"
 #include "recording/measurement_statements.hpp"
 #include "recording/profile_choice.hpp"
 #include "recording/unused_files.hpp"
@@ -522,6 +523,8 @@ class BagSource : public Source {
         fix.sensor = label;
         stated_.apply(fix);
         if (is_nowhere(fix)) throw UnusableMessage(kNoFixYet);
+        const bool is_by_quality = topic.type == "nmea_msgs/Sentence" && fix.covariance_enu;
+        if (is_by_quality) note_gga_quality(*fix.covariance_enu, info_.facts);
         return fix;
       }
       case TopicKind::kOdometry:

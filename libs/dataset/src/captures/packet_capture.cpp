@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -17,6 +18,7 @@
 #include "point_clouds/point_statements.hpp"
 #include "recording/arrival_queue.hpp"
 #include "recording/folder_opening.hpp"
+#include "recording/gga_quality_fact.hpp"
 #include "recording/unused_files.hpp"
 
 namespace traverse::dataset {
@@ -80,6 +82,10 @@ class CaptureSource : public Source {
   void read_datagram() {
     const std::string place = fmt::format("datagram {}", datagrams_ + 1);
     const PacketLidars::Sink sink = [this, &place](PacketMeasurement&& found) {
+      const auto* fix = std::get_if<sensors::GnssFix>(&found.measurement);
+      if (fix != nullptr && fix->covariance_enu) {  // of a sentence, which tells a code alone
+        note_gga_quality(*fix->covariance_enu, info_.facts);
+      }
       queue_.push(std::move(found.measurement), place);
     };
     if (const auto datagram = capture_->next()) {

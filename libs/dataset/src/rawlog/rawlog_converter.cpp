@@ -118,9 +118,9 @@ const InertialAttitude* good_attitude(const mrpt::obs::CObservationGPS& observat
   return is_good ? message : nullptr;
 }
 
-/// Latitude, longitude and altitude: of the receiver's own sentence first, then of Novatel's
-/// messages.
-GnssFix fix_without_quality(const mrpt::obs::CObservationGPS& observation) {
+/// Latitude, longitude and altitude: of the receiver's own sentence first, with the covariance of
+/// its quality code, then of Novatel's messages.
+GnssFix place_of(const mrpt::obs::CObservationGPS& observation) {
   GnssFix fix;
   const auto* best = good_position(observation);
   const auto* gga = find_message<mrpt::obs::gnss::Message_NMEA_GGA>(observation);
@@ -165,20 +165,28 @@ GnssFix fix_without_quality(const mrpt::obs::CObservationGPS& observation) {
   throw mrpt_io::UnusableObservation("GNSS record without GGA, RMC, BESTPOS or INSPVAS");
 }
 
-GnssFix gnss_fix(const mrpt::obs::CObservationGPS& observation) {
-  GnssFix fix = fix_without_quality(observation);
+/// A fix, and whether GGA's quality code alone tells how exact it is.
+struct RatedFix {
+  GnssFix fix;
+  bool is_by_quality = false;
+};
+
+RatedFix gnss_fix(const mrpt::obs::CObservationGPS& observation) {
+  GnssFix fix = place_of(observation);
+  bool is_by_quality = fix.covariance_enu.has_value();
   if (const auto* best = good_position(observation)) {
     const Eigen::Vector3d sigmas_enu(best->fields.lon_sigma, best->fields.lat_sigma,
                                      best->fields.hgt_sigma);
     if (sigmas_enu.allFinite() && sigmas_enu.minCoeff() > 0) {
       fix.covariance_enu = Eigen::Matrix3d(sigmas_enu.cwiseAbs2().asDiagonal());
+      is_by_quality = false;
     }
   }
   if (const auto* attitude = good_attitude(observation)) {
     const double azimuth = attitude->fields.azimuth;  // packed: a reference would be misaligned
     if (std::isfinite(azimuth)) fix.heading_deg = azimuth;
   }
-  return fix;
+  return {fix, is_by_quality};
 }
 
 WheelOdometry wheel_odometry(const mrpt::obs::CObservationOdometry& observation) {
@@ -289,12 +297,13 @@ Measurement RawlogConverter::measurement_from(mrpt::obs::CObservation& observati
     return sample;
   }
   if (const auto* gnss = dynamic_cast<mrpt::obs::CObservationGPS*>(&observation)) {
-    GnssFix fix = gnss_fix(*gnss);
+    auto [fix, is_by_quality] = gnss_fix(*gnss);
     fix.stamp = stamp;
     fix.sensor = sensors_.label_of(SensorKind::kGnss, name, T_body_sensor);
     stated_.apply(fix);
     if (is_nowhere(fix)) throw mrpt_io::UnusableObservation(kNoFixYet);
-    return fix;
+    if (is_by_quality) sensors_.note_gga_quality(*fix.covariance_enu);
+    return std::move(fix);
   }
   if (const auto* wheels = dynamic_cast<mrpt::obs::CObservationOdometry*>(&observation)) {
     WheelOdometry odometry = wheel_odometry(*wheels);

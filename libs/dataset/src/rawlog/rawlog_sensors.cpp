@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "point_clouds/point_statements.hpp"
+#include "recording/gga_quality_fact.hpp"
 
 namespace traverse::dataset {
 
@@ -62,6 +63,10 @@ const sensors::MountedSensor& RawlogSensors::lidar(const std::string& name,
          fmt::format("the first is; --recording 'lidars={},{}' takes both as one", first, label)});
   }
   return info_.rig.sensors.back();
+}
+
+void RawlogSensors::note_gga_quality(const Eigen::Matrix3d& covariance_enu) {
+  dataset::note_gga_quality(covariance_enu, info_.facts);
 }
 
 }  // namespace traverse::dataset

@@ -31,6 +31,9 @@ class RawlogSensors {
                                       const sensors::LidarProfile& from_data,
                                       bool has_named_fields = false);
 
+  /// Says in the facts what a fix is taken to err by whose GGA quality alone tells it.
+  void note_gga_quality(const Eigen::Matrix3d& covariance_enu);
+
  private:
   std::string unique_label(sensors::SensorKind kind, const std::string& name) const;
 

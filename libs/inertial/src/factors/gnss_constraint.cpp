@@ -1,6 +1,8 @@
 #include "factors/gnss_constraint.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include <Eigen/Cholesky>
 
@@ -33,6 +35,10 @@ void GnssConstraint::constrain(FixedLagSmoother& smoother, const MapFix& told,
                            motion.acceleration_map};
   frame.gnss_residual_enu = GnssPositionResidual{antenna}(smoother.newest());
   if (options_.gate) judge_rejected(smoother, fix, first_sigma, frame, events);
+  if (options_.gate && fix.heading)
+    judge_headings(smoother, fix, motion, first_sigma, frame, events);
+  const double heading_residual =
+      fix.heading ? HeadingResidual{*fix.heading}(smoother.newest())[0] : 0;
 
   const bool as_pose = options_.form == GnssForm::kPose && fix.heading.has_value();
   const bool agrees = !contradicts(frame.gnss_residual_enu, fix.covariance);
@@ -56,7 +62,10 @@ void GnssConstraint::constrain(FixedLagSmoother& smoother, const MapFix& told,
     last_fix_ = fix.stamp;
   }
   if (frame.heading.is_rejected) ++events["heading rejected by chi-square"];
-  if (frame.heading.rows > 0 && !frame.heading.is_rejected) last_heading_ = fix.stamp;
+  if (frame.heading.rows > 0) {
+    headings_.add(fix.stamp, heading_residual, fix.heading_sigma, frame.heading.is_rejected);
+    if (!frame.heading.is_rejected) last_heading_ = fix.stamp;
+  }
 }
 
 bool GnssConstraint::has_heading(geometry::Stamp stamp) const {
@@ -92,6 +101,49 @@ void GnssConstraint::judge_rejected(FixedLagSmoother& smoother, MapFix& fix,
   begin_again(smoother, *line, first_sigma);
   frame.restarted = true;
   rejected_.clear();
+}
+
+/// Who is right, when most headings of seconds are rejected and agree with each other: they, if the
+/// way of the vehicle says so too. It goes ahead or backwards, so that its velocity, which fixes
+/// tell whatever the heading, is nearer to the right one; mounted otherwise than stated, antennas
+/// agree with each other and not with the way.
+void GnssConstraint::judge_headings(FixedLagSmoother& smoother, const MapFix& fix,
+                                    const BodyMotion& motion, const NavState::Tangent& first_sigma,
+                                    NavFrame& frame, Events& events) {
+  constexpr double kLeastOffset = 0.15;  // rad; less the estimate finds by itself
+  constexpr double kLeastSpeed = 0.3;    // m/s
+  constexpr double kArm_m = 2;           // from the rear axle to the IMU, which a turn swings aside
+  constexpr double kAside = 0.1;         // rad
+  constexpr double kSure = 4;            // standard deviations of the velocity
+  constexpr double kOnItsWay = 0.25;     // rad
+  constexpr double kDoubt = 5;           // times the standard deviation that was believed
+  const auto offset = headings_.offset(options_.longest_rejection_s);
+  if (!offset || std::abs(*offset) < kLeastOffset || frame.restarted) return;
+  const NavState& x = smoother.newest();
+  const NavState::Matrix& P = smoother.covariance();
+  const Eigen::Vector2d v = x.v_map.head<2>();
+  const double v_sigma = std::sqrt(P.block<2, 2>(NavState::kVelocity, NavState::kVelocity).trace());
+  if (v.norm() < std::max(kLeastSpeed, kSure * v_sigma)) return;
+  if (std::abs(motion.angular_rate.z()) * kArm_m > kAside * v.norm()) return;
+  const auto off_its_way = [&](double heading) {
+    return std::abs(std::remainder(std::atan2(v.y(), v.x()) - heading, std::numbers::pi));
+  };
+  const Eigen::Matrix3d R = x.rotation();
+  const double estimated = std::atan2(R(1, 0), R(0, 0));
+  const double measured = estimated - *offset;
+  const bool is_reversed = std::abs(*offset) > std::numbers::pi / 2;
+  const bool is_right =
+      off_its_way(measured) < (is_reversed ? kOnItsWay : off_its_way(estimated) / 2);
+  if (!is_right) return;
+  ++events["navigation begun again after too many headings were rejected"];
+  NavState state = x;
+  state.q_map_body = (geometry::exp_quaternion({0, 0, -*offset}) * x.q_map_body).normalized();
+  state.p_map += (R - state.rotation()) * antenna_body_;
+  NavState::Tangent sigma = (kDoubt * P.diagonal().cwiseSqrt()).cwiseMin(first_sigma);
+  sigma[NavState::kRotation + 2] = fix.heading_sigma;
+  smoother.start(state, sigma);
+  frame.restarted = true;
+  headings_.clear();
 }
 
 /// An estimate leaves the fixes as fast as a vehicle can move without its wheels telling: locked

@@ -3,6 +3,7 @@
 #include "traverse/inertial/navigation.hpp"
 
 #include "factors/rejected_fixes.hpp"
+#include "factors/rejected_headings.hpp"
 #include "navigation/map_fix.hpp"
 #include "residuals/gnss_position.hpp"
 #include "smoother/fixed_lag_smoother.hpp"
@@ -36,6 +37,8 @@ class GnssConstraint {
  private:
   void judge_rejected(FixedLagSmoother& smoother, MapFix& fix, const NavState::Tangent& first_sigma,
                       NavFrame& frame, Events& events);
+  void judge_headings(FixedLagSmoother& smoother, const MapFix& fix, const BodyMotion& motion,
+                      const NavState::Tangent& first_sigma, NavFrame& frame, Events& events);
   void begin_again(FixedLagSmoother& smoother, const RejectedFixes::Line& line,
                    const NavState::Tangent& first_sigma) const;
   void take_heading(FixedLagSmoother& smoother, const MapFix& fix, NavFrame& frame) const;
@@ -52,6 +55,7 @@ class GnssConstraint {
                     NavFrame& frame) const;
 
   RejectedFixes rejected_;                       ///< since the last that was believed
+  RejectedHeadings headings_;                    ///< all of the last seconds
   std::optional<geometry::Stamp> last_fix_;      ///< that was believed
   std::optional<geometry::Stamp> last_heading_;  ///< that was believed
 };

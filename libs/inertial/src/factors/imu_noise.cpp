@@ -12,6 +12,8 @@ void bind(config::Binder& b, ImuNoise& n) {
            "random walk of the gyro bias, rad/s/sqrt(s)");
   b.number("accelerometer_bias_walk", n.accelerometer_bias_walk, Range::positive(),
            "random walk of the accelerometer bias, m/s^2/sqrt(s)");
+  b.flag("shaking", n.shaking,
+         "take an IMU whose readings scatter by more than twice its white noise for as noisy");
 }
 
 }  // namespace traverse::inertial

@@ -13,6 +13,7 @@ void ImuShaking::add(const sensors::ImuSample& sample) {
   constexpr double kUneven = 0.25;         // of the interval; a line through uneven points is none
   constexpr double kVarianceOfSecond = 6;  // 1 + 4 + 1
   constexpr double kExcess = 2;
+  if (!noise_.shaking) return;
   last_.push_back(sample);
   if (last_.size() > 3) last_.pop_front();
   if (last_.size() < 3) return;

@@ -18,7 +18,8 @@ namespace traverse::inertial {
 /// is beyond half the rate, and what each reading misses of the time between two, is noise of the
 /// integral. The second difference of readings takes constant motion and steady changes away and
 /// leaves that noise, 6 times its variance. Below twice what is told nothing is changed: a
-/// vehicle's own motion is in it too.
+/// vehicle's own motion is in it too. What a road does to a car on its springs is such motion at
+/// every frequency, and no noise: ImuNoise::shaking says so where a preset knows.
 class ImuShaking {
  public:
   struct Densities {

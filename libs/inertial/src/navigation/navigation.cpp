@@ -134,7 +134,7 @@ class Navigation::Impl {
           {"noise of the IMU",
            fmt::format("at most {:.2g} rad/s/sqrt(Hz) and {:.2g} m/s^2/sqrt(Hz), where it shakes: "
                        "what its readings scatter by, more than imu.gyro_density and "
-                       "imu.accelerometer_density say",
+                       "imu.accelerometer_density say (imu.shaking)",
                        shaken->gyro, shaken->accelerometer)});
     }
     if (failed_at_) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
@@ -183,11 +184,52 @@ std::optional<NavigationStart::Heading> NavigationStart::course() const {
   return best;
 }
 
+/// What the fixes since that one may have stepped by, as a receiver does that goes over from one
+/// set of ambiguities to another, whatever deviation it tells: nothing where they lie on a parabola
+/// over time as they say, else a carrier's wavelength.
+double NavigationStart::step_m(std::size_t first) const {
+  constexpr double kWavelength_m = 0.19;  // of L1
+  constexpr std::size_t kLeast = 6;       // twice what the parabola takes
+  constexpr double kOnePercent = 2.326;   // deviations of a normal distribution
+  constexpr double kUnseen = 3;           // deviations of a fix, near an end of the parabola
+  const std::size_t count = fixes_.size() - first;
+  if (count < kLeast) return kWavelength_m;
+  const auto seconds = [&](std::size_t k) {
+    return geometry::seconds_between(fixes_.back().fix.stamp, fixes_[k].fix.stamp);
+  };
+  const double span = std::abs(seconds(first));
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Matrix<double, 3, 2> sum = Eigen::Matrix<double, 3, 2>::Zero();
+  const auto powers = [&](std::size_t k) {
+    const double t = seconds(k) / span;
+    return Eigen::Vector3d(1, t, t * t);
+  };
+  for (std::size_t k = first; k < fixes_.size(); ++k) {
+    const Eigen::Vector3d basis = powers(k);
+    information += basis * basis.transpose();
+    sum += basis * fixes_[k].fix.p_antenna_map.head<2>().transpose();
+  }
+  const Eigen::Matrix<double, 3, 2> parabola = information.ldlt().solve(sum);
+  double chi2 = 0;
+  for (std::size_t k = first; k < fixes_.size(); ++k) {
+    const MapFix& fix = fixes_[k].fix;
+    const Eigen::Vector2d off = fix.p_antenna_map.head<2>() - parabola.transpose() * powers(k);
+    chi2 += off.dot(fix.covariance.topLeftCorner<2, 2>().ldlt().solve(off));
+  }
+  // Wilson and Hilferty's bound: the cube root of chi-square over its rows is nearly normal.
+  const double rows = 2 * static_cast<double>(count) - 6;
+  const double part = 2 / (9 * rows);
+  const double bound = rows * std::pow(1 - part + kOnePercent * std::sqrt(part), 3);
+  const double sigma =
+      std::sqrt(fixes_.back().fix.covariance.topLeftCorner<2, 2>().diagonal().maxCoeff());
+  return chi2 <= bound ? std::min(kUnseen * sigma, kWavelength_m) : kWavelength_m;
+}
+
 /// The heading of a vehicle whose rear axle slips to no side, from the way of its antenna and the
 /// gyro's turns. The axle goes the way s along the mean u of its headings; the antenna, a ahead of
 /// it, swings by w besides: |s u + w| is the way between the fixes, and the angle between the two
-/// the heading. The deviation is that of the fixes, the gyro's bias, and a fifth of the turn, for
-/// the speed was not the same all along.
+/// the heading. The deviation is that of the fixes, of a step that they may hold, the gyro's bias,
+/// and a fifth of the turn, for the speed was not the same all along.
 std::optional<NavigationStart::Heading> NavigationStart::course_since(std::size_t first) const {
   constexpr double kShareOfTurn = 0.2;
   // rad; a way of five deviations: noise makes one in a hundred thousand pairs of fixes
@@ -199,7 +241,7 @@ std::optional<NavigationStart::Heading> NavigationStart::course_since(std::size_
   const double seconds = geometry::seconds_between(from.fix.stamp, to.fix.stamp);
   const double fix_variance = std::max(to.fix.covariance(0, 0) + from.fix.covariance(0, 0),
                                        to.fix.covariance(1, 1) + from.fix.covariance(1, 1)) +
-                              to.fix.step_m * to.fix.step_m;
+                              std::pow(std::max(to.fix.step_m, step_m(first)), 2);
   const double turn = to.yaw - from.yaw;
   const double sigma = std::hypot(std::sqrt(fix_variance) / distance,
                                   gyro_bias_sigma() * seconds / 2, kShareOfTurn * turn);

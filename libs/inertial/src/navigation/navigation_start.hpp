@@ -50,6 +50,7 @@ class NavigationStart {
   std::optional<Heading> antennas_heading() const;
   std::optional<Heading> course() const;
   std::optional<Heading> course_since(std::size_t first) const;
+  double step_m(std::size_t first) const;
   bool is_level_by_still() const { return still_tilt_sigma() < most_tilt_sigma_; }
   double still_tilt_sigma() const;
   double gyro_bias_sigma() const;

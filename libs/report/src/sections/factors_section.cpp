@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "run/number_texts.hpp"
+#include "sections/inertial_jacobians.hpp"
 #include "sections/sections.hpp"
 
 namespace traverse::report {
@@ -153,6 +154,7 @@ void add_factors(const RunData& run, Model& model) {
   model.page.set("has_jacobians", audited);
   model.page.set("has_bench", run.factor_bench.has_value());
   if (audited) add_jacobians(*run.jacobians, model);
+  if (audited) add_inertial_jacobians(run, model);
   if (run.factor_bench) add_bench(*run.factor_bench, model);
 }
 

@@ -8,6 +8,7 @@
 
 #include "traverse/dataset/source.hpp"
 #include "traverse/evaluation/titles.hpp"
+#include "traverse/pipeline/rejections_text.hpp"
 
 #include "charts/navigation_series.hpp"
 #include "charts/series.hpp"
@@ -163,8 +164,8 @@ void add_smaller_notices(const RunData& run, std::vector<Notice>& list) {
   if (health.lost.frames > 0 && !has_reason(health, "not_registered") &&
       !has_reason(health, "ends_lost")) {
     list.push_back({"warn", by_fixes ? "Dead reckoning" : "Not registered",
-                    fmt::format("{} of {}, for up to {} s at once.", count_text(health.lost.frames),
-                                plural(health.registrable, "frame"),
+                    fmt::format("{} of {}, the longest stretch {} s.",
+                                count_text(health.lost.frames), plural(health.registrable, "frame"),
                                 short_number(health.lost.longest.seconds))});
   }
   for (const pipeline::SensorUse& sensor : health.sensors) {
@@ -172,10 +173,9 @@ void add_smaller_notices(const RunData& run, std::vector<Notice>& list) {
     if (is_lidar || sensor.rejected == 0 || has_reason(health, "sensor_rejected")) continue;
     list.push_back(
         {"good", "Rejected",
-         fmt::format("{} of {} of {}, for up to {} s at once: outliers, as far as one "
-                     "can tell.",
+         fmt::format("{} of {} of {}, {}: outliers, as far as one can tell.",
                      count_text(sensor.rejected), plural(sensor.used + sensor.rejected, "reading"),
-                     sensor.label, short_number(sensor.longest_rejected_s))});
+                     sensor.label, pipeline::rejections_text(sensor))});
   }
   if (health.degenerate.frames > 0 && !has_reason(health, "degenerate")) {
     list.push_back({"warn", "Degenerate",
