@@ -300,6 +300,17 @@ TEST(NavigationFaults, HeadingsThatAgreeWithTheWayTurnAnEstimateThatDoesNot) {
     const auto rejected = errors.events.find("heading rejected by chi-square");
     EXPECT_LT(rejected == errors.events.end() ? 0U : rejected->second, 150U) << off_deg;
   }
+  // Headings that are wrong alike for seconds, half a turn too, do not turn one that is right.
+  for (const double off_deg : {180.0, 90.0, -40.0}) {
+    SimulatedDrive drive = simulate({}, rtk(), kSeconds);
+    for (auto& fix : drive.fixes) {
+      const double t = seconds_of(fix.stamp);
+      if (t > 20 && std::fmod(t, 10) < 3) *fix.heading_deg += off_deg;
+    }
+    const Errors errors = run(window(rtk()), drive);
+    EXPECT_EQ(errors.restarts(), 0U) << off_deg << events_of(errors);
+    EXPECT_LT(errors.most_m, 0.1) << off_deg << events_of(errors);
+  }
   // Antennas that stand otherwise than stated agree with each other, but not with the way.
   SimulatedDrive turned = simulate({}, rtk(), kSeconds);
   for (auto& fix : turned.fixes) *fix.heading_deg += 12;

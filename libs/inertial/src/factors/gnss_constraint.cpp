@@ -115,7 +115,6 @@ void GnssConstraint::judge_headings(FixedLagSmoother& smoother, const MapFix& fi
   constexpr double kArm_m = 2;           // from the rear axle to the IMU, which a turn swings aside
   constexpr double kAside = 0.1;         // rad
   constexpr double kSure = 4;            // standard deviations of the velocity
-  constexpr double kOnItsWay = 0.25;     // rad
   constexpr double kDoubt = 5;           // times the standard deviation that was believed
   const auto offset = headings_.offset(options_.longest_rejection_s);
   if (!offset || std::abs(*offset) < kLeastOffset || frame.restarted) return;
@@ -131,9 +130,9 @@ void GnssConstraint::judge_headings(FixedLagSmoother& smoother, const MapFix& fi
   const Eigen::Matrix3d R = x.rotation();
   const double estimated = std::atan2(R(1, 0), R(0, 0));
   const double measured = estimated - *offset;
-  const bool is_reversed = std::abs(*offset) > std::numbers::pi / 2;
+  // Half a turn, as of antennas that are taken for each other, leaves both as near to the way.
   const bool is_right =
-      off_its_way(measured) < (is_reversed ? kOnItsWay : off_its_way(estimated) / 2);
+      off_its_way(estimated) > kAside && off_its_way(measured) < off_its_way(estimated) / 2;
   if (!is_right) return;
   ++events["navigation begun again after too many headings were rejected"];
   NavState state = x;
