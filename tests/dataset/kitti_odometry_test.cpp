@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "traverse/dataset/recording_formats.hpp"
 #include "traverse/dataset/trajectory_files.hpp"
 #include "traverse/files/atomic_file.hpp"
 
@@ -290,6 +291,14 @@ TEST(OpenRecording, SaysWhatItLookedFor) {
   files::write_text(folder / "notes.txt", "");
   EXPECT_THAT(opening_error(folder.path()), HasSubstr("velodyne/*.bin (KITTI odometry)"));
   EXPECT_THAT(opening_error(folder.path()), HasSubstr("found a folder with none of these"));
+  files::write_text(folder / "b.rawlog", "anything");
+  fs::create_directories(folder / "drive" / "velodyne");
+  files::write_text(folder / "drive" / "velodyne" / "000000.bin", "");
+  fs::create_directories(folder / "run");
+  files::write_text(folder / "run" / "run.json", "{}");
+  files::write_text(folder / "run" / "map.ply", "");
+  EXPECT_THAT(recordings_in(folder.path()),
+              ::testing::ElementsAre(folder / "b.rawlog", folder / "drive"));
   EXPECT_THAT(opening_error(folder / "none"),
               HasSubstr("none: expected a recording, found no such file or folder"));
   EXPECT_THAT(opening_error(""), HasSubstr("expected a recording"));

@@ -56,6 +56,13 @@ TEST_F(Doctor, NamesWhatIsNotARecordingAndFails) {
   files::write_text(folder_ / "notes", "anything");
   EXPECT_THAT(run_program("doctor " + path("notes")).output,
               ContainsRegex("fails  not_a_recording: .*Next: .*traverse info --formats"));
+  // A folder of recordings, beside what no reader knows.
+  std::filesystem::create_directories(folder_ / "drives");
+  files::write_text(folder_ / "drives" / "a.zip", std::string("PK\x03\x04") + "...");
+  files::write_text(folder_ / "drives" / "b.rawlog", "anything");
+  EXPECT_THAT(
+      run_program("doctor " + path("drives")).output,
+      ContainsRegex("fails  not_a_recording: .*drives: .*Next: open one of them: .*b.rawlog"));
   make_scans(folder_ / "scans", "t", 0.03);
   const ProgramResult stated = run_program(
       "doctor " + path("scans") + " --recording lidar.time_unit=ms --recording lidar.time_field=s");

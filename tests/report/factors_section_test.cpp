@@ -85,7 +85,7 @@ TEST(FactorsSection, ShowsTheInertialFactorAtAStateOfTheRun) {
   std::set<std::string> blocks;
   for (const Json& row : table["rows"]) {
     blocks.insert(row[0].get<std::string>());
-    for (int k = 2; k < 5; ++k) {
+    for (std::size_t k = 2; k < 5; ++k) {
       EXPECT_NEAR(row[k].get<double>(), row[k + 3].get<double>(), 1e-5) << row.dump();
     }
     EXPECT_LT(row[8].get<double>(), 1e-7) << row.dump();

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "traverse/dataset/foreign_file.hpp"
+#include "traverse/dataset/recording_formats.hpp"
 
 namespace traverse::plausibility {
 
@@ -155,6 +156,14 @@ Diagnosis diagnose_unopened(const std::filesystem::path& path, const files::Inpu
             "give the path of a recording"};
   }
   const bool is_unknown = error.expected().starts_with("a recording: ");
+  if (is_unknown && std::filesystem::is_directory(path, failure)) {
+    const auto recordings = dataset::recordings_in(path);
+    if (!recordings.empty()) {
+      return {"not_a_recording", Effect::kFails, path.string() + ": a folder with recordings in it",
+              "every command: it opens one of them",
+              "open one of them: " + recordings.front().string()};
+    }
+  }
   const auto foreign = dataset::foreign_format(path);
   if (foreign && (is_unknown || std::filesystem::is_regular_file(path, failure))) {
     return {std::string(foreign->code), Effect::kFails,

@@ -1,9 +1,11 @@
 #include "traverse/dataset/open_recording.hpp"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -45,6 +47,19 @@ void refuse_results(const fs::path& folder) {
   }
 }
 
+/// "a folder with recordings in it: open one of them: a.rawlog, b.bag and 3 more"
+std::string named_recordings(const std::vector<fs::path>& recordings) {
+  constexpr std::size_t kMostNamed = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(recordings.size(), kMostNamed); ++i) {
+    text += (i == 0 ? "" : ", ") + recordings[i].filename().string();
+  }
+  if (recordings.size() > kMostNamed) {
+    text += fmt::format(" and {} more", recordings.size() - kMostNamed);
+  }
+  return "a folder with recordings in it: open one of them: " + text;
+}
+
 std::string found_in_folder(const fs::path& folder) {
   return fs::is_empty(folder) ? "an empty folder" : "a folder with none of these";
 }
@@ -59,6 +74,10 @@ std::string found_in_file(const fs::path& file) {
 
 /// What stands there in place of a recording, and what to do about it where that is known.
 std::string found_instead(const fs::path& path, bool is_folder) {
+  if (is_folder) {
+    const auto recordings = recordings_in(path);
+    if (!recordings.empty()) return named_recordings(recordings);
+  }
   if (const auto foreign = foreign_format(path)) {
     return fmt::format("{}: {}", foreign->name, foreign->action);
   }

@@ -4,6 +4,8 @@
 #include <array>
 #include <cctype>
 #include <string>
+#include <system_error>
+#include <vector>
 
 #include "traverse/files/input_error.hpp"
 #include "traverse/mrpt_io/rawlog_reader.hpp"
@@ -97,5 +99,34 @@ constexpr std::array<RecordingFormat, 12> kFormats{{
 }  // namespace
 
 std::span<const RecordingFormat> recording_formats() { return kFormats; }
+
+std::vector<fs::path> recordings_in(const fs::path& folder) {
+  constexpr std::size_t kMostEntries = 200;
+  std::vector<fs::path> entries;
+  std::error_code failure;
+  for (const auto& entry : fs::directory_iterator(folder, failure)) {
+    entries.push_back(entry.path());
+    if (entries.size() == kMostEntries) break;
+  }
+  std::sort(entries.begin(), entries.end());
+  std::vector<fs::path> recordings;
+  for (const fs::path& entry : entries) {
+    const bool is_folder = fs::is_directory(entry, failure);
+    // Folders of results have clouds too.
+    if (fs::exists(entry / "run.json", failure) || fs::exists(entry / "map.json", failure))
+      continue;
+    for (const RecordingFormat& format : kFormats) {
+      if (format.is_folder != is_folder) continue;
+      try {
+        if (!format.recognises(entry)) continue;
+        recordings.push_back(entry);
+        break;
+      } catch (const files::InputError&) {  // what cannot be read is none to be named
+      } catch (const fs::filesystem_error&) {
+      }
+    }
+  }
+  return recordings;
+}
 
 }  // namespace traverse::dataset

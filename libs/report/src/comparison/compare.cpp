@@ -111,41 +111,50 @@ std::pair<std::string, std::string> draw_overlay(const std::vector<ComparedRun>&
 /// How a run's figures differ from the baseline's.
 struct Changes {
   std::string run;
-  std::vector<std::string> told;  ///< "APE improved"
-  std::size_t improved = 0;
-  std::size_t regressed = 0;
+  std::vector<std::string> improved;  ///< "APE"
+  std::vector<std::string> regressed;
 };
 
-/// "b: APE improved; b: Time a frame regressed; 3 figures without a change that is sure."; of more
-/// than two runs only how many: "b: 1 improved, 2 regressed; c: nothing changed; ..."
+/// "2 improved (APE; Roughness)"; of one of many runs without the names.
+std::string counted(const std::vector<std::string>& figures, const char* verdict, bool with_names) {
+  std::string text = fmt::format("{} {}", figures.size(), verdict);
+  if (with_names) text += fmt::format(" ({})", fmt::join(figures, "; "));
+  return text;
+}
+
+/// "b: 2 improved (APE; Roughness), 1 regressed (Time per frame). 3 figures without a change that
+/// is sure."; of more than two runs only how many: "b: 1 improved, 2 regressed; c: nothing changed.
+/// ..."
 std::string sentence(const Json& differences) {
   std::vector<Changes> runs;
   std::size_t unchanged = 0;
   for (const Json& row : differences.at("rows")) {
     const auto name = row[0].get<std::string>();
     const auto verdict = row.back().get<std::string>();
-    if (runs.empty() || runs.back().run != name) runs.push_back({name, {}, 0, 0});
+    if (runs.empty() || runs.back().run != name) runs.push_back({name, {}, {}});
     const bool improved = verdict == "improved";
     if (!improved && verdict != "regressed") {
       ++unchanged;
       continue;
     }
-    ++(improved ? runs.back().improved : runs.back().regressed);
-    runs.back().told.push_back(row[1].get<std::string>() + " " + verdict);
+    Changes& changes = runs.back();
+    (improved ? changes.improved : changes.regressed).push_back(row[1].get<std::string>());
+  }
+  std::vector<std::string> sentences;
+  for (const Changes& run : runs) {
+    const bool with_names = runs.size() == 1;
+    std::vector<std::string> counts;
+    if (!run.improved.empty()) counts.push_back(counted(run.improved, "improved", with_names));
+    if (!run.regressed.empty()) counts.push_back(counted(run.regressed, "regressed", with_names));
+    if (counts.empty()) counts.emplace_back("nothing changed");
+    sentences.push_back(fmt::format("{}: {}", run.run, fmt::join(counts, ", ")));
   }
   std::string text;
-  for (const Changes& run : runs) {
-    if (runs.size() == 1) {
-      for (const std::string& change : run.told) text += fmt::format("{}: {}; ", run.run, change);
-      continue;
-    }
-    std::vector<std::string> counts;
-    if (run.improved > 0) counts.push_back(fmt::format("{} improved", run.improved));
-    if (run.regressed > 0) counts.push_back(fmt::format("{} regressed", run.regressed));
-    if (counts.empty()) counts.emplace_back("nothing changed");
-    text += fmt::format("{}: {}; ", run.run, fmt::join(counts, ", "));
+  if (!sentences.empty()) text = fmt::format("{}.", fmt::join(sentences, "; "));
+  if (unchanged > 0) {
+    text += fmt::format(" {} without a change that is sure.", plural(unchanged, "figure"));
   }
-  return text + fmt::format("{} without a change that is sure.", plural(unchanged, "figure"));
+  return text;
 }
 
 /// What must be known of the runs before their figures: "b is lost: 0 of 23 frames ..."

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "traverse/dataset/open_recording.hpp"
 
@@ -31,5 +32,9 @@ struct RecordingFormat {
 
 /// Every format, in the order in which they are tried.
 std::span<const RecordingFormat> recording_formats();
+
+/// The recordings that lie in a folder which is none itself, by name: whoever gives such a folder
+/// means one of them. Of a large folder the first 200 entries are looked at.
+std::vector<std::filesystem::path> recordings_in(const std::filesystem::path& folder);
 
 }  // namespace traverse::dataset
