@@ -66,7 +66,7 @@ TEST_F(ReportCommands, CompareTellsWhatHasImproved) {
   const auto result =
       run_program("compare " + at("one") + " " + at("two") + " -o " + at("both.html"));
   EXPECT_EQ(result.status, 0) << result.everything();
-  EXPECT_THAT(result.output, HasSubstr("two: RPE over 10 frames improved"));
+  EXPECT_THAT(result.output, HasSubstr("two: 3 improved (APE; APE, angle; RPE over 10 frames)."));
   EXPECT_TRUE(std::filesystem::exists(folder / "both.html"));
   EXPECT_TRUE(std::filesystem::exists(folder / "both.json"));
   EXPECT_EQ(run_program("compare " + at("one")).status, 2);
