@@ -19,7 +19,9 @@ namespace {
 
 constexpr std::array kDescriptions{
     DiagnosisDescription{"not_found", "there is no such file or folder"},
-    DiagnosisDescription{"not_a_recording", "no reader takes it, and its first bytes tell nothing"},
+    DiagnosisDescription{
+        "not_a_recording",
+        "no reader takes it: its first bytes tell nothing, or it is a folder of recordings"},
     DiagnosisDescription{"cannot_open", "a reader takes it, but it or a statement is wrong"},
     DiagnosisDescription{"no_measurements", "nothing in it can be used"},
     DiagnosisDescription{"no_pipeline", "the pipeline needs what is not in it"},

@@ -27,7 +27,7 @@ constexpr std::size_t kLeastMatches = 300;      ///< of the other lidar
 constexpr double kLeastTold_s = 0.002;          ///< a standard error above tells nothing
 constexpr double kMostLate_s = 0.2;
 
-/// Every so manieth return, with seconds after the middle of both sweeps.
+/// Returns at a fixed step, with seconds after the middle of both sweeps.
 struct ThinnedReturns {
   std::vector<Eigen::Vector3d> p_lidar;
   std::vector<double> t;

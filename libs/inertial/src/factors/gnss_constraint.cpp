@@ -35,8 +35,9 @@ void GnssConstraint::constrain(FixedLagSmoother& smoother, const MapFix& told,
                            motion.acceleration_map};
   frame.gnss_residual_enu = GnssPositionResidual{antenna}(smoother.newest());
   if (options_.gate) judge_rejected(smoother, fix, first_sigma, frame, events);
-  if (options_.gate && fix.heading)
+  if (options_.gate && fix.heading) {
     judge_headings(smoother, fix, motion, first_sigma, frame, events);
+  }
   const double heading_residual =
       fix.heading ? HeadingResidual{*fix.heading}(smoother.newest())[0] : 0;
 
