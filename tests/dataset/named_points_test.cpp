@@ -13,6 +13,7 @@
 
 #include "dataset/made_recordings.hpp"
 #include "dataset/rawlog_maker.hpp"
+#include "mrpt_io/archive_object.hpp"
 #include "temporary_folder.hpp"
 
 /// Clouds of MRPT 2.15 and later in rawlogs, whose points have fields of any name.
@@ -27,18 +28,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 using namespace traverse::testing;  // made recordings and rawlogs
-using Fill = std::function<void(CArchive&)>;
 
 constexpr std::uint32_t kPoints = 5;
-
-void write_object(CArchive& archive, const std::string& name, std::uint8_t version,
-                  const Fill& fill) {
-  archive << static_cast<std::uint8_t>(name.size() | 0x80U);
-  archive.WriteBuffer(name.data(), name.size());
-  archive << version;
-  fill(archive);
-  archive << std::uint8_t{0x88};
-}
 
 template <typename Number>
 struct MadeField {

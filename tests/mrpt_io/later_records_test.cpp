@@ -1,5 +1,4 @@
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,6 +23,7 @@
 #include "traverse/mrpt_io/rawlog_reader.hpp"
 #include "traverse/mrpt_io/simple_map_file.hpp"
 
+#include "mrpt_io/archive_object.hpp"
 #include "temporary_folder.hpp"
 
 /// Records as MRPT 2.11.4 to 3.1.2 write them, made here number by number.
@@ -32,28 +32,17 @@ namespace {
 
 using mrpt::serialization::CArchive;
 using ::testing::ElementsAre;
+using testing::Fill;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::TemporaryFolder;
-using Fill = std::function<void(CArchive&)>;
-
-constexpr std::uint8_t kEndOfObject = 0x88;
+using testing::write_object;
 
 std::string bytes_of(const Fill& fill) {
   mrpt::io::CMemoryStream memory;
   auto archive = mrpt::serialization::archiveFrom(memory);
   fill(archive);
   return {static_cast<const char*>(memory.getRawBufferData()), memory.getTotalBytesCount()};
-}
-
-/// An object: the length of its name with bit 7 set, the name, the version, what it holds, the end.
-void write_object(CArchive& archive, const std::string& name, std::uint8_t version,
-                  const Fill& fill) {
-  archive << static_cast<std::uint8_t>(name.size() | 0x80U);
-  archive.WriteBuffer(name.data(), name.size());
-  archive << version;
-  fill(archive);
-  archive << kEndOfObject;
 }
 
 std::string object(const std::string& name, std::uint8_t version, const Fill& fill) {
