@@ -1,6 +1,7 @@
 #include "traverse/replay/run_estimator.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -152,7 +153,7 @@ std::unique_ptr<pipeline::Estimator> make_run_estimator(
     frame.stamp = trajectory.stamp(i);
     frame.T_map_body = trajectory.pose(i);
     frame.record.assign(row.begin() + 2, row.end() - totals);
-    frame.milliseconds = has_times ? row.back() : 0;
+    frame.milliseconds = has_times ? row.back() : std::numeric_limits<double>::quiet_NaN();
     run->frames.push_back(std::move(frame));
   }
   fill_velocities(run->frames);

@@ -110,6 +110,22 @@ void add_baseline_notice(const BaselineComparison& baseline, Data& list) {
   add_notice(list, regressed > 0 ? "fail" : "good", "Against the baseline", text);
 }
 
+/// ": drive, floam: APE 0.31 to 0.36 m"
+std::string spread_words(const RepeatCheck& repeats, const std::string& metric) {
+  constexpr std::size_t kMostNamed = 5;
+  const Metric* shown = find_metric(metric);
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMostNamed, repeats.spreads.size()); ++i) {
+    const RepeatCheck::Spread& spread = repeats.spreads[i];
+    text += fmt::format("{} {}: {} {} to {} {}", i == 0 ? ":" : ";", spread.title, shown->title,
+                        short_number(spread.least), short_number(spread.most), shown->unit);
+  }
+  if (repeats.spreads.size() > kMostNamed) {
+    text += fmt::format("; and {} more", repeats.spreads.size() - kMostNamed);
+  }
+  return text;
+}
+
 Data notices(const ReportData& data, const Counts& counts) {
   Data list = Data::list();
   const std::size_t rows = data.results.jobs().size();
@@ -139,11 +155,12 @@ Data notices(const ReportData& data, const Counts& counts) {
                            fmt::join(parts, ", ")));
   }
   if (data.baseline) add_baseline_notice(*data.baseline, list);
-  const RepeatCheck repeats = check_repeats(data.results);
+  const std::string& rank_by = data.plan.metrics.front();
+  const RepeatCheck repeats = check_repeats(data.results, rank_by);
   if (repeats.different > 0) {
     add_notice(list, "warn", "Repeats differ",
-               fmt::format("{} of {} gave other trajectories when repeated.", repeats.different,
-                           plural(repeats.groups, "combination")));
+               fmt::format("{} of {} gave other trajectories when repeated{}.", repeats.different,
+                           plural(repeats.groups, "combination"), spread_words(repeats, rank_by)));
   } else if (repeats.groups > 0) {
     add_notice(list, "good", "Repeats",
                fmt::format("all {} gave the same trajectory, bit for bit, on every repeat.",
