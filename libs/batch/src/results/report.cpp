@@ -16,6 +16,7 @@
 #include "traverse/pipeline/privacy.hpp"
 #include "traverse/pipeline/provenance.hpp"
 
+#include "results/ranking.hpp"
 #include "results/report_data.hpp"
 
 namespace traverse::batch {
@@ -244,6 +245,7 @@ std::vector<page::Section> sections(const ReportData& data, const Counts& counts
   const bool has_grid = std::any_of(data.variants.begin(), data.variants.end(),
                                     [](const auto& variant) { return !variant.settings.empty(); });
   std::vector<page::Section> sections{{"verdict", "Verdict"}, {"leaderboard", "Leaderboard"}};
+  if (data.variants.size() > 1) sections.push_back({"ranking", "Ranking"});
   if (!data.tables.empty()) sections.push_back({"tables", "Tables"});
   if (data.baseline) sections.push_back({"baseline", "Against the baseline"});
   sections.push_back({"recordings", "Recordings and pipelines"});
@@ -275,6 +277,13 @@ std::string batch_page(const ReportData& data, const std::filesystem::path& temp
   parts.set("rank_title", find_metric(data.plan.metrics.front())->title);
   const page::Table leads = leads_table(data.leads);
   parts.set("table_leads", leads.empty() ? Data(false) : leads.data());
+  const auto ranking = rank_variants(data.results, data.plan.metrics.front());
+  parts.set("table_ranking", ranking ? ranking_table(*ranking).data() : Data(false));
+  parts.set("table_fairness", fairness_table(data.plan, data.results).data());
+  parts.set("limits",
+            fmt::format("Each run had {} and at most {:g} s.",
+                        plural(static_cast<std::size_t>(data.plan.limits.threads), "thread"),
+                        data.plan.limits.time_s));
   if (data.baseline) {
     parts.set("baseline_source", told(data.baseline->source));
     parts.set("baseline_rule", kBaselineRule);
