@@ -261,6 +261,7 @@ std::vector<page::Section> sections(const ReportData& data, const Counts& counts
 
 std::string batch_page(const ReportData& data, const std::filesystem::path& templates) {
   const Counts counts = count(data);
+  const auto ranking = rank_variants(data.results, data.plan.metrics.front());
   const pipeline::Privacy privacy(data.plan.file.parent_path());
   const auto told = [&](const std::string& text) {
     return data.plan.is_private ? privacy.text(text) : text;
@@ -277,7 +278,6 @@ std::string batch_page(const ReportData& data, const std::filesystem::path& temp
   parts.set("rank_title", find_metric(data.plan.metrics.front())->title);
   const page::Table leads = leads_table(data.leads);
   parts.set("table_leads", leads.empty() ? Data(false) : leads.data());
-  const auto ranking = rank_variants(data.results, data.plan.metrics.front());
   parts.set("table_ranking", ranking ? ranking_table(*ranking).data() : Data(false));
   parts.set("table_fairness", fairness_table(data.plan, data.results).data());
   parts.set("limits",
@@ -299,7 +299,7 @@ std::string batch_page(const ReportData& data, const std::filesystem::path& temp
   page.title = name + " · batch";
   page.program_version = pipeline::build_info().version;
   page.sections = sections(data, counts);
-  page.report_json = page::text_for_script(report_data_json(data));
+  page.report_json = page::text_for_script(report_data_json(data, ranking));
   page.scripts = {"dygraphs", "plot", "tables", "batch_tables", "batch_charts"};
   page.styles = {"batch"};
   return page::render(page, std::move(parts), templates);
