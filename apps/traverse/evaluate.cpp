@@ -23,6 +23,7 @@
 #include "traverse/files/numbers.hpp"
 #include "traverse/pipeline/run_digests.hpp"
 #include "traverse/pipeline/run_folder.hpp"
+#include "traverse/report/evaluation_pictures.hpp"
 
 #include "budget_option.hpp"
 #include "commands.hpp"
@@ -42,6 +43,7 @@ constexpr const char* kEvaluateExamples = R"(Examples:
   traverse evaluate RUN --rpe 10f --rpe 100m --all-pairs --json evaluation.json
   traverse evaluate 00_estimate.txt --reference 00.txt --format kitti --align sim3 --relation full
   traverse evaluate out.bag --topic /odometry --reference truth.csv --from 1700000010 --to 1700000070
+  traverse evaluate estimate.tum --reference reference.tum --align se3 --plot pictures
   traverse evaluate RUN --checkpoints points.csv --point 0.3,0,1.2
 
 ESTIMATE and REFERENCE are TUM, KITTI, EuRoC or CSV files, g2o or bags; KITTI files go by index, others by time: each
@@ -72,6 +74,7 @@ struct EvaluateArguments {
   std::vector<std::string> deltas;
   bool all_pairs = false;
   evaluation::PairsFrom pairs_from = evaluation::PairsFrom::kEstimate;
+  std::optional<fs::path> plot;  ///< folder for pictures
   std::optional<fs::path> json;
   std::optional<fs::path> budget;
 };
@@ -234,6 +237,23 @@ bool is_within(const std::optional<geometry::Stamp>& stamp, const fs::path& file
          !(arguments.to_s && *stamp > geometry::Stamp::from_seconds(*arguments.to_s));
 }
 
+/// The poses of that time, in memory.
+geometry::Trajectory trajectory_within(const fs::path& file,
+                                       const dataset::TrajectoryChoice& choice,
+                                       const EvaluateArguments& arguments) {
+  std::vector<geometry::Stamp> stamps;
+  std::vector<geometry::Pose3> poses;
+  dataset::read_poses(
+      file, choice,
+      [&](const std::optional<geometry::Stamp>& stamp, const geometry::Pose3& T_map_body) {
+        if (!is_within(stamp, file, arguments)) return;
+        if (stamp) stamps.push_back(*stamp);
+        poses.push_back(T_map_body);
+      });
+  return stamps.empty() ? geometry::Trajectory::unstamped(std::move(poses))
+                        : geometry::Trajectory::stamped(std::move(stamps), std::move(poses));
+}
+
 /// A trajectory that need not fit into memory, and as what its file was read.
 struct ReadTrajectory {
   evaluation::TrajectoryStore poses;
@@ -326,6 +346,16 @@ void evaluate(const EvaluateArguments& arguments) {
   if (arguments.json) {
     write_json_output(*arguments.json,
                       [&](std::ostream& stream) { evaluation::write_json(evaluation, stream); });
+  }
+  if (arguments.plot) {
+    const auto read = [&](const fs::path& file, const dataset::TrajectoryChoice& choice) {
+      return trajectory_within(file, choice, arguments);
+    };
+    const std::size_t pictures = report::draw_evaluation(
+        {read(estimate_file, arguments.choice), read(reference_file, of_reference), evaluation,
+         estimate_file.filename().string(), reference_file.filename().string()},
+        *arguments.plot);
+    fmt::print("{} pictures in {}\n", pictures, arguments.plot->string());
   }
   if (arguments.budget) require_kept(report::check_budget(*arguments.budget, evaluation));
 }
@@ -423,6 +453,12 @@ void add_evaluate(CLI::App& app) {
       .add_option("--json", arguments->json,
                   "write every figure with the values behind it to this file")
       ->type_name("FILE");
+  command
+      .add_option(
+          "--plot", arguments->plot,
+          "folder for pictures: trajectories, errors along them, over time, and their spread; "
+          "PNG, SVG, PDF")
+      ->type_name("DIR");
   add_budget_option(command, arguments->budget);
   command.footer(kEvaluateExamples);
   command.callback([arguments, &command] {

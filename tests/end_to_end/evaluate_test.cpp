@@ -165,5 +165,20 @@ TEST_F(EvaluateCommand, SurveyedPointsStandInForAReference) {
   EXPECT_EQ(run_program(arguments + " --align origin").status, 2);
 }
 
+TEST_F(EvaluateCommand, PicturesAreDrawnOfStampedPosesAndOfNumberedOnes) {
+  dataset::write_kitti(folder_ / "a.txt", testing::golden_reference());
+  for (const std::string& arguments :
+       {both_files(), "evaluate " + file("a.txt") + " --reference " + file("a.txt")}) {
+    std::filesystem::remove_all(folder_ / "pictures");
+    const ProgramResult drawn = run_program(arguments + " --align se3 --plot " + file("pictures"));
+    ASSERT_EQ(drawn.status, 0) << drawn.everything();
+    EXPECT_THAT(drawn.output, HasSubstr("pictures in " + file("pictures")));
+    for (const char* name : {"trajectory-above.png", "trajectory-above.svg", "error-over-time.pdf",
+                             "error-distribution_dark.png", "trajectory-error.png"}) {
+      EXPECT_TRUE(std::filesystem::exists(folder_ / "pictures" / name)) << name;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace traverse
