@@ -7,8 +7,10 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <unistd.h>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -101,6 +103,27 @@ std::string_view ending_of_format(std::string_view format) {
   return found == kConverted.end() ? "?" : found->second;
 }
 
+config::Document with_recipe(config::Document entry, const fs::path& share_folder) {
+  const fs::path folder = share_folder / "systems";
+  const std::string name = entry.scalar("system").value_or("");
+  const fs::path file = folder / (name + ".yaml");
+  if (!fs::is_regular_file(file)) {
+    std::vector<std::string> known;
+    std::error_code failure;
+    for (const auto& there : fs::directory_iterator(folder, failure)) {
+      if (there.path().extension() == ".yaml") known.push_back(there.path().stem().string());
+    }
+    std::sort(known.begin(), known.end());
+    throw plan_error(
+        entry.origin(),
+        fmt::format("a system that share/systems has a recipe of: {}", fmt::join(known, ", ")),
+        files::in_quotes(name));
+  }
+  config::Document recipe = config::Document::load(file);
+  recipe.overlay(entry);
+  return recipe;
+}
+
 PlannedPipeline read_command(const config::Document& entry, const fs::path& folder) {
   PlannedPipeline pipeline;
   PlannedCommand& command = pipeline.command;
@@ -110,10 +133,14 @@ PlannedPipeline read_command(const config::Document& entry, const fs::path& fold
     formats[i] = dataset::kTrajectoryFormatNames[i].first;
   }
   std::string config;
+  std::string system;
+  std::string about;
   static constexpr std::array<std::string_view, 3> kOthers{"set", "grid", "statements"};
   config::read(
       entry,
       [&](config::Binder& b) {
+        b.text("system", system, "recipe of share/systems");
+        b.text("about", about, "the program, for people");
         b.text("name", pipeline.name, "of the program, in tables");
         b.text("command", command.text, "how it is started, for /bin/sh");
         b.text("trajectory", command.trajectory, "what it writes: a path or a pattern");

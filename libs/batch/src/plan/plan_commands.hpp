@@ -9,6 +9,10 @@
 
 namespace traverse::batch {
 
+/// An entry of `pipelines` that names a recipe (`system: kiss-icp`): the recipe with the entry's
+/// own keys over it. \throws files::InputError with the plan's line if there is none of that name
+config::Document with_recipe(config::Document entry, const std::filesystem::path& share_folder);
+
 /// An entry of `pipelines` that is a command. \throws files::InputError with the plan's line
 PlannedPipeline read_command(const config::Document& entry, const std::filesystem::path& folder);
 

@@ -131,7 +131,9 @@ std::vector<PlannedPipeline> read_pipelines(const Document& plan, const fs::path
   const std::vector<GridAxis> common_grid = read_grid(plan.child("grid"));
   std::vector<PlannedPipeline> pipelines;
   std::map<std::string, Origin> names;
-  for (const Document& item : plan.items("pipelines", "preset")) {
+  for (Document& entry : plan.items("pipelines", "preset")) {
+    const Document item =
+        entry.has("system") ? with_recipe(std::move(entry), share_folder) : std::move(entry);
     const bool is_command = item.has("command");
     PlannedPipeline pipeline =
         is_command ? read_command(item, folder) : read_entry(item, common_grid, folder);
