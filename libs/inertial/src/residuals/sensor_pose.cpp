@@ -39,10 +39,10 @@ optimization::FactorKind SensorPoseResidual::kind() {
       kName, "r = (Log(R0' R), p + R l - t0)", 1, {{block::kRotation, block::kPosition}, 0, kSize},
       [](optimization::RandomStates& random) {
         const NavState around = random_nav_state(random);
-        const Eigen::Vector3d p_body = random.vector(2);
+        const Eigen::Vector3d arm = random.vector(2);
         const geometry::Pose3 found = around.T_map_body();
-        return of_state(SensorPoseResidual{found, p_body},
-                        [=](const auto& x, auto* r) { sensor_pose(found, p_body, x, r); });
+        return of_state(SensorPoseResidual{found, arm},
+                        [=](const auto& x, auto* r) { sensor_pose(found, arm, x, r); });
       });
 }
 

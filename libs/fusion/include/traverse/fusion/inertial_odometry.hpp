@@ -33,8 +33,8 @@ struct InertialOdometryOptions {
   inertial::WindowOptions window;
   inertial::WheelOptions wheels;
   StartOptions start;
-  double information_share = 0.02;  ///< of the matches' information that is new
-  int threads = 1;                  ///< the result does not depend on it
+  double information_share = 0.1;  ///< of the matches' information that is new
+  int threads = 1;                 ///< the result does not depend on it
 };
 void bind(config::Binder& binder, InertialOdometryOptions& options);
 
