@@ -111,6 +111,25 @@ TEST_F(InertialStreet, AnImuInGIsNotUsedAndSaysSo) {
   EXPECT_NE(note_of(odometry).find("gravity"), std::string::npos) << note_of(odometry);
 }
 
+TEST_F(InertialStreet, AnImuOnWrongAxesIsGivenUpAndTheLidarGoesOn) {
+  std::vector<sensors::ImuSample> turned = imu();
+  for (sensors::ImuSample& sample : turned) {
+    for (Eigen::Vector3d* v : {&sample.angular_rate, &sample.specific_force}) {
+      *v = Eigen::Vector3d(-v->y(), v->x(), v->z());
+    }
+  }
+  InertialOdometryOptions options = quick_start();
+  options.start.most_gravity_error = 100;  // it begins all the same
+  InertialOdometry odometry = made(options);
+  const auto frames = testing::frames_of(odometry, street(), turned);
+  ASSERT_EQ(frames.size(), street().scans.size());
+  EXPECT_GT(count_fused(frames), 0U) << note_of(odometry);
+  EXPECT_EQ(frames.back().further.at(0), 0) << note_of(odometry);
+  EXPECT_TRUE(odometry.notes().at(0).is_trouble);
+  EXPECT_NE(note_of(odometry).find("given up after frame"), std::string::npos);
+  EXPECT_LT(worst_position_error(frames, street()), 0.1);
+}
+
 TEST_F(InertialStreet, TheSameBitsForAnyNumberOfThreads) {
   InertialOdometry one = made(quick_start());
   InertialOdometryOptions options = quick_start();

@@ -151,6 +151,7 @@ lidar::Frame FusedScans::add(const SweepSample& sample, const ImuReadings& imu,
   lidar::Stopwatch solving;
   if (condensed) {
     const Vector6 least = least_point(condensed->H, condensed->g);
+    note_innovation(*condensed, least);
     inertial::FoundPose found;
     found.T_map_sensor = condensed->T_map_lidar;
     found.T_map_sensor.rotation *= geometry::exp_so3(least.head<3>());
@@ -178,6 +179,34 @@ lidar::Frame FusedScans::add(const SweepSample& sample, const ImuReadings& imu,
   }
   frame.map_points = map_.size();
   return frame;
+}
+
+/// The normalised innovation squared of the pose where the matches have it, by what is left of
+/// prediction and matches at their best compromise, which is the same.
+void FusedScans::note_innovation(const Condensed& found, const Vector6& least) {
+  constexpr double kMemory = 20;  // scans
+  constexpr double kMost = 1e4;   // one scan alone is no proof
+  const NavState& predicted = chain_.newest();
+  const Pose3 at = lidar_pose(predicted);
+  Vector6 apart;  // of the matches' pose from the prediction
+  apart.head<3>() = geometry::log_so3(at.rotation.transpose() * found.T_map_lidar.rotation *
+                                      geometry::exp_so3(least.head<3>()));
+  apart.tail<3>() = found.T_map_lidar.translation + least.tail<3>() - at.translation;
+  const Matrix6 A = lidar_by_body(predicted);
+  const Matrix6 Lambda = (A * chain_.covariance().topLeftCorner<6, 6>() * A.transpose())
+                             .llt()
+                             .solve(Matrix6::Identity());
+  const Vector6 moved = (found.H + Lambda).llt().solve(found.H * apart);
+  const double chi2 = apart.dot(found.H * (apart - moved));
+  innovation_ = std::min(chi2 / 6, kMost);
+  disagreement_ += (innovation_ - disagreement_) / kMemory;
+}
+
+/// How a perturbation of the body's pose moves that of the lidar.
+Matrix6 FusedScans::lidar_by_body(const NavState& x) const {
+  Matrix6 A = Matrix6::Identity();
+  A.bottomLeftCorner<3, 3>() = -x.rotation() * geometry::hat(mounts_.p_lidar_body);
+  return A;
 }
 
 /// Rounds of association and one step each. \returns the matches of the last round
@@ -217,9 +246,7 @@ std::optional<FusedScans::Condensed> FusedScans::register_scan(const SweepSample
     last = found;
 
     lidar::Stopwatch solving;
-    // The body's pose moves the lidar's by A.
-    Matrix6 A = Matrix6::Identity();
-    A.bottomLeftCorner<3, 3>() = -x.rotation() * geometry::hat(mounts_.p_lidar_body);
+    const Matrix6 A = lidar_by_body(x);
     const Matrix6 H = A.transpose() * found->H * A;
     const Vector6 g = A.transpose() * found->g;
     const Vector6 step = -(H + Lambda).llt().solve(g + Lambda * moved);

@@ -43,6 +43,13 @@ class FusedScans {
   const std::map<std::string, std::size_t>& events() const { return events_; }
   std::size_t bytes() const;
 
+  /// Of the last scan that was registered: chi-square of where its matches have the pose against
+  /// the prediction, by its degrees of freedom; 1 where both err as they are taken to.
+  double innovation() const { return innovation_; }
+  /// The same over the last two seconds.
+  double disagreement() const { return disagreement_; }
+  const geometry::Pose3& lidar_in_the_middle() const { return T_map_last_; }
+
   /// How the lidar went in one of the latest sweeps, and when its stamp was after the middle.
   struct Swept {
     geometry::Stamp stamp;
@@ -67,6 +74,8 @@ class FusedScans {
   std::optional<Condensed> condense(const geometry::Pose3& T_map_lidar, double gate_m,
                                     double scale_m, lidar::Frame& frame);
   std::optional<Condensed> register_scan(const voxel_map::SweepSample& sample, lidar::Frame& frame);
+  lidar::Matrix6 lidar_by_body(const inertial::NavState& x) const;
+  void note_innovation(const Condensed& found, const lidar::Vector6& least);
   void insert(const voxel_map::SweepSample& sample, lidar::Frame& frame);
 
   InertialOdometryOptions options_;
@@ -79,6 +88,8 @@ class FusedScans {
   std::size_t frames_;
   std::map<std::string, std::size_t> events_;
   std::deque<Swept> swept_;
+  double innovation_ = 0;
+  double disagreement_ = 0;
   Eigen::Vector3d turning_ = Eigen::Vector3d::Zero();  ///< between the last states, body [rad/s]
 
   // Of the present sweep; kept for their memory.

@@ -1,6 +1,7 @@
 #include "traverse/fusion/inertial_odometry.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <iterator>
 #include <optional>
@@ -48,6 +49,11 @@ void bind(config::Binder& b, StartOptions& o) {
            "largest bias of the gyro that is believed, rad/s");
   b.number("most_gravity_error", o.most_gravity_error, Range::positive(),
            "largest error of the length of gravity that a start in motion finds, m/s^2");
+  b.number("most_accelerometer_bias", o.most_accelerometer_bias, Range::positive(),
+           "largest bias of the accelerometer that is believed, m/s^2");
+  b.number(
+      "most_disagreement", o.most_disagreement, Range::positive(),
+      "largest chi-square by degrees of freedom, over two seconds, at which the IMU is believed");
   b.number("longest_gap_s", o.longest_gap_s, Range::positive(),
            "gap between IMU readings that is bridged; beyond it, constant velocity");
 }
@@ -147,7 +153,7 @@ class InertialOdometry::Impl {
   bool has_wheels() const { return has_wheels_; }
 
   std::vector<lidar::Note> notes() const {
-    std::vector<lidar::Note> notes{{"fusion with the IMU", start_note_}};
+    std::vector<lidar::Note> notes{{"fusion with the IMU", start_note_, is_contradicted_}};
     if (imu_.left_out() > 0) {
       notes.push_back({"IMU readings left out (not finite, or not later than the one before)",
                        std::to_string(imu_.left_out())});
@@ -186,8 +192,10 @@ class InertialOdometry::Impl {
     return options;
   }
 
+  bool was_given_up() const { return fused_from_ > 0 && !fused_; }
+
   bool is_covered(const SweepSample& sample) const {
-    if (!has_imu_) return true;
+    if (!has_imu_ || was_given_up()) return true;
     const double last_s = voxel_map::time_span(sample).second;
     return imu_.reach(geometry::shifted(sample.stamp, sample.middle_s + last_s));
   }
@@ -195,9 +203,10 @@ class InertialOdometry::Impl {
   std::vector<lidar::Frame> take(const SweepSample& sample) {
     const Stamp middle = geometry::shifted(sample.stamp, sample.middle_s);
     if (!fused_) {
-      waiting_.push_back({sample.stamp, sample.middle_s});
+      const bool looks_for_start = has_imu_ && !was_given_up();
+      if (looks_for_start) waiting_.push_back({sample.stamp, sample.middle_s});
       std::vector<lidar::Frame> frames = alone_.process(sample);
-      if (has_imu_) look_for_start(frames);
+      if (looks_for_start) look_for_start(frames);
       return told(std::move(frames));
     }
     const auto later = std::upper_bound(
@@ -207,7 +216,37 @@ class InertialOdometry::Impl {
     wheels_.erase(wheels_.begin(), later);
     lidar::Frame frame = fused_->add(sample, imu_, wheels);
     forget_before(fused_->chain().newest().stamp);
-    return told({std::move(frame)});
+    std::vector<lidar::Frame> frames = told({std::move(frame)});
+    const std::string contradiction = contradiction_found();
+    if (!contradiction.empty()) go_on_alone(frames.back(), sample.middle_s, contradiction);
+    return frames;
+  }
+
+  /// What makes the IMU unbelievable, in words; empty if nothing does.
+  std::string contradiction_found() const {
+    const inertial::NavState& x = fused_->chain().newest();
+    const char* cause = "axes (vehicle.imu.roll_pitch_yaw_deg), unit or clock of the IMU are wrong";
+    if (x.accelerometer_bias.norm() > options_.start.most_accelerometer_bias) {
+      return fmt::format("the accelerometer's bias would be {:.2f} m/s^2: {}",
+                         x.accelerometer_bias.norm(), cause);
+    }
+    if (x.gyro_bias.norm() > options_.start.most_gyro_bias) {
+      return fmt::format("the gyro's bias would be {:.2f} rad/s: {}", x.gyro_bias.norm(), cause);
+    }
+    if (fused_->disagreement() > options_.start.most_disagreement) {
+      return fmt::format("its predictions are off by {:.0f} times what they say: {}",
+                         std::sqrt(fused_->disagreement()), cause);
+    }
+    return "";
+  }
+
+  void go_on_alone(const lidar::Frame& last, double middle_s, const std::string& why) {
+    is_contradicted_ = true;
+    start_note_ = fmt::format("given up after frame {} (begun with frame {}), {}", last.index,
+                              fused_from_, why);
+    alone_.go_on(fused_->map(), {last.index + 1, last.stamp, middle_s,
+                                 fused_->lidar_in_the_middle(), last.velocity});
+    fused_.reset();
   }
 
   /// Whether what the lidar alone has found is enough to begin with.
@@ -234,12 +273,14 @@ class InertialOdometry::Impl {
     }
     const StartVerdict verdict = find_start(sightings_, imu_, p_lidar_imu_, options_);
     if (verdict.first) {
+      is_contradicted_ = false;
       fused_from_ = frames.back().index + 1;
       start_note_ = fmt::format("from frame {} on, {}", fused_from_, verdict.first->how);
       fused_.emplace(options_, mounts_, *verdict.first, alone_.map(), deskew_note_ == "on",
                      profile_.sweep_s, fused_from_, workers_);
       return;
     }
+    is_contradicted_ = verdict.is_contradiction;
     start_note_ = "not begun: " + verdict.why_not;
     forget_before(geometry::shifted(sightings_.front().stamp, -1));
   }
@@ -266,6 +307,7 @@ class InertialOdometry::Impl {
         frame.further[4 + n] = x.accelerometer_bias[k];
       }
       frame.further[7] = x.wheel_scale;
+      frame.further[8] = fused_->innovation();
     }
     return frames;
   }
@@ -282,7 +324,8 @@ class InertialOdometry::Impl {
                                                         "accelerometer_bias_x_mps2",
                                                         "accelerometer_bias_y_mps2",
                                                         "accelerometer_bias_z_mps2",
-                                                        "wheel_scale"};
+                                                        "wheel_scale",
+                                                        "imu_innovation"};
 
   InertialOdometryOptions options_;
   sensors::LidarProfile profile_;
@@ -301,6 +344,7 @@ class InertialOdometry::Impl {
   std::optional<FusedScans> fused_;
   std::size_t fused_from_ = 0;  // the first frame that the IMU has to do with
   std::string start_note_;
+  bool is_contradicted_ = false;  // the IMU, by the lidar
 };
 
 InertialOdometry::InertialOdometry(const InertialOdometryOptions& options,

@@ -134,7 +134,8 @@ StartVerdict find_start(std::span<const Sighting> sightings, const ImuReadings& 
             fmt::format("the gyro does not turn as the lidar does: apart by {:.2g} rad/s (rms) and "
                         "{:.2g} rad/s (mean) where the lidar turns at {:.2g} rad/s; axes, unit or "
                         "clock of the IMU are wrong",
-                        rate_apart, gyro_bias.norm(), rate)};
+                        rate_apart, gyro_bias.norm(), rate),
+            true};
   }
 
   // Least squares for p0, v0 and g, the axes of the map apart.
@@ -168,7 +169,8 @@ StartVerdict find_start(std::span<const Sighting> sightings, const ImuReadings& 
     return {{},
             fmt::format("gravity by the IMU and the lidar's way is {:.2f} m/s^2, not {:.2f}: unit, "
                         "axes or clock of the IMU are wrong",
-                        gravity_found.norm(), start.gravity)};
+                        gravity_found.norm(), start.gravity),
+            true};
   }
   FirstState found;
   found.gravity_map = start.gravity * gravity_found.normalized();

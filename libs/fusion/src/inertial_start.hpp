@@ -28,6 +28,7 @@ struct FirstState {
 struct StartVerdict {
   std::optional<FirstState> first;
   std::string why_not;
+  bool is_contradiction = false;  ///< the IMU cannot be right
 };
 
 /// Gravity, velocity and the gyro's bias from the poses that the lidar alone found and what the IMU

@@ -251,14 +251,21 @@ std::vector<SensorUse> LidarEstimator::sensor_use() const {
 
 std::vector<HealthReason> LidarEstimator::troubles() const {
   constexpr double kBlur_m = 0.1;  // several times what ranges are off by
-  if (has_times_ || frames_ < 2) return {};
+  std::vector<HealthReason> reasons;
+  for (const lidar::Note& note : odometry_->notes()) {
+    if (!note.is_trouble) continue;
+    reasons.push_back({Health::kDegraded, "imu_not_used", note.name + ": " + note.value + "."});
+  }
+  if (has_times_ || frames_ < 2) return reasons;
   const double in_a_scan_m = path_m_ / static_cast<double>(frames_ - 1);
-  if (in_a_scan_m <= kBlur_m) return {};
-  return {{Health::kDegraded, "not_deskewed",
-           fmt::format("The lidar moves by {:.2g} m from scan to scan, and scans are used as if it "
-                       "stood: the times of their points are unknown (deskewed already: "
-                       "--recording motion_compensated=true).",
-                       in_a_scan_m)}};
+  if (in_a_scan_m <= kBlur_m) return reasons;
+  reasons.push_back(
+      {Health::kDegraded, "not_deskewed",
+       fmt::format("The lidar moves by {:.2g} m from scan to scan, and scans are used as if it "
+                   "stood: the times of their points are unknown (deskewed already: "
+                   "--recording motion_compensated=true).",
+                   in_a_scan_m)});
+  return reasons;
 }
 
 std::vector<Decision> LidarEstimator::decisions() const {

@@ -47,6 +47,16 @@ std::vector<lidar::Frame> VoxelMapOdometry::process(SweepSample sample) {
   return advance_all(held_back_.add(std::move(sample)));
 }
 
+void VoxelMapOdometry::go_on(const VoxelMap& map, const Known& last) {
+  held_back_ = lidar::HeldBack<SweepSample>(0);
+  map_ = map;
+  frames_ = last.frames;
+  last_stamp_ = last.stamp;
+  last_middle_s_ = last.middle_s;
+  T_map_last_ = last.T_map_middle;
+  velocity_ = last.velocity;
+}
+
 std::vector<lidar::Frame> VoxelMapOdometry::finish() { return advance_all(held_back_.release()); }
 
 lidar::CorrectedScan VoxelMapOdometry::used_scan(const sensors::LidarScan& scan,

@@ -22,6 +22,10 @@ struct StartOptions {
   double most_gyro_bias = 0.2;      ///< rad/s; more is no bias
   double most_gravity_error = 1;    ///< m/s^2, of the length that the start in motion finds
   double longest_gap_s = 0.15;      ///< of the IMU's readings
+  /// What an IMU is not believed beyond: biases that no unit has stand for wrong axes or units.
+  double most_accelerometer_bias = 0.6;  ///< m/s^2
+  /// Chi-square by degrees of freedom of the matches against the prediction, over two seconds.
+  double most_disagreement = 30;
 };
 void bind(config::Binder& binder, StartOptions& options);
 
@@ -53,6 +57,9 @@ void bind(config::Binder& binder, InertialOdometryOptions& options);
 /// tell a direction (a tunnel's axis), their information on it is left out, and the IMU and the
 /// wheels carry it. Matches err alike from scan to scan, because they are on the same surfaces: of
 /// their information `information_share` counts.
+///
+/// An IMU that contradicts the lidar (biases that no unit has, or predictions that are off by many
+/// times what they say) is given up for good: the lidar alone goes on, and the run says so.
 ///
 /// The map's frame is the first scan's, with gravity wherever it is found there; it is not
 /// estimated further. A frame is told when the IMU has covered its sweep, at the next scan at

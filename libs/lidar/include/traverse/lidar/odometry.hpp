@@ -32,6 +32,7 @@ struct MatchedPoint {
 struct Note {
   std::string name;
   std::string value;
+  bool is_trouble = false;  ///< the result is less worth for it
 };
 
 /// An algorithm that follows a lidar from scan to scan. Everything is in the lidar's own frame; the

@@ -52,6 +52,15 @@ class VoxelMapOdometry final : public lidar::Odometry {
   /// The same of a scan that sampler() has sampled, for odometry that is built on this one.
   std::vector<lidar::Frame> process(SweepSample sample);
   SweepSampler& sampler() { return sampler_; }
+  /// Goes on from what another odometry has found, in its map.
+  struct Known {
+    std::size_t frames = 0;
+    geometry::Stamp stamp;  ///< of the last scan
+    double middle_s = 0;    ///< of its sweep, after that
+    geometry::Pose3 T_map_middle;
+    geometry::Twist velocity = geometry::Twist::Zero();  ///< body twist a second
+  };
+  void go_on(const VoxelMap& map, const Known& last);
   std::vector<lidar::Frame> finish() override;
   const std::string& deskew_note() const override { return deskew_note_; }
 
