@@ -4,7 +4,9 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <set>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -148,6 +150,46 @@ TEST(LidarSimulator, ALidarThatStampsAtTheEndTellsTimesBeforeItsStamp) {
   EXPECT_LT(outliers, scan.size() / 500);
 }
 
+TEST(LidarSimulator, AMirrorThatNodsNeverSweepsTheSameWayTwice) {
+  const Town& town = Town::instance();
+  sensors::LidarProfile profile = profile_of("mid360");
+  profile.noise.resolution_m = 0;
+  const LidarSimulator lidar = lidar_in(town, profile);
+  const std::size_t sweep = sweep_in_corner(lidar, town.motion);
+  const sensors::LidarScan scan = lidar.scan(sweep);
+  ASSERT_GT(scan.size(), 5000U);
+  const auto elevation_deg = [](const sensors::LidarScan& s, std::size_t i) {
+    return std::atan2(s.z[i], std::hypot(s.x[i], s.y[i])) / geometry::kDegree;
+  };
+  double lowest = 90;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    EXPECT_GE(elevation_deg(scan, i), -7.01);
+    EXPECT_LE(elevation_deg(scan, i), 52.01);
+    EXPECT_LT(scan.ring[i], 4);
+    lowest = std::min(lowest, elevation_deg(scan, i));
+  }
+  EXPECT_LT(lowest, -6);
+  // Directions of the one sweep, by degrees, that the next has not.
+  const auto directions = [&](const sensors::LidarScan& s) {
+    std::set<std::pair<int, int>> all;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      const double azimuth_deg = std::atan2(s.y[i], s.x[i]) / geometry::kDegree;
+      all.insert({static_cast<int>(std::lround(azimuth_deg)),
+                  static_cast<int>(std::lround(elevation_deg(s, i)))});
+    }
+    return all;
+  };
+  const auto now = directions(scan);
+  const auto next = directions(lidar.scan(sweep + 1));
+  std::size_t anew = 0;
+  for (const auto& direction : next) anew += now.count(direction) == 0 ? 1 : 0;
+  EXPECT_GT(static_cast<double>(anew), 0.3 * static_cast<double>(next.size()));
+  const auto moment = [&](std::size_t i) { return scan.stamp.seconds() + scan.time[i]; };
+  std::size_t outliers = 0;
+  EXPECT_NEAR(rms_off_surface(town, scan, moment, outliers), profile.noise.range_m, 0.001);
+  EXPECT_LT(outliers, scan.size() / 500);
+}
+
 TEST(LidarSimulator, EveryInstalledProfileThatTellsItsFiringCanBeSimulated) {
   const Town& town = Town::instance();
   std::size_t count = 0;
@@ -155,7 +197,9 @@ TEST(LidarSimulator, EveryInstalledProfileThatTellsItsFiringCanBeSimulated) {
        std::filesystem::directory_iterator(std::string(TRAVERSE_SHARE_DIR) + "/sensors")) {
     const sensors::LidarProfile profile = sensors::load_lidar_profile(entry.path());
     if (profile.firing.period_us == 0) continue;
-    EXPECT_EQ(profile.elevations_deg.size(), static_cast<std::size_t>(profile.rings))
+    const auto& mirror = profile.firing.mirror;
+    EXPECT_EQ((mirror.turns_hz > 0 ? mirror.tilts_deg : profile.elevations_deg).size(),
+              static_cast<std::size_t>(profile.rings))
         << entry.path();
     EXPECT_NO_THROW(lidar_in(town, profile)) << entry.path();
     ++count;

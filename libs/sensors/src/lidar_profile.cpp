@@ -10,6 +10,18 @@ using config::Range;
 
 namespace {
 
+void bind(config::Binder& b, NoddingMirror& m) {
+  b.number("turns_hz", m.turns_hz, Range::non_negative(), "turns a second; 0 if there is none");
+  b.number("nods_hz", m.nods_hz, Range::non_negative(), "nods a second, down and up again");
+  b.number("lowest_deg", m.lowest_deg, Range::between(-90, 90),
+           "lowest elevation of the beams' middle");
+  b.number("highest_deg", m.highest_deg, Range::between(-90, 90),
+           "highest elevation of the beams' middle");
+  b.numbers("tilts_deg", m.tilts_deg, "what each beam looks higher at the tilts' azimuth");
+  b.number("tilt_azimuth_deg", m.tilt_azimuth_deg, Range::between(-360, 360),
+           "azimuth at which they do, counterclockwise from ahead");
+}
+
 void bind(config::Binder& b, LidarFiring& f) {
   b.number("period_us", f.period_us, Range::non_negative(),
            "from one firing of all beams to the next; 0 if unknown");
@@ -17,6 +29,8 @@ void bind(config::Binder& b, LidarFiring& f) {
             "time of each beam after the start of the firing, ring 0 first");
   b.numbers("azimuth_offsets_deg", f.azimuth_offsets_deg,
             "azimuth offset of each beam, counterclockwise, ring 0 first");
+  b.group("mirror", "a mirror that turns many times in a sweep and nods, instead of a head",
+          [&](config::Binder& group) { bind(group, f.mirror); });
 }
 
 void bind(config::Binder& b, LidarNoise& n) {

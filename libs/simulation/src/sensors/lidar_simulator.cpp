@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <string>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -70,8 +71,14 @@ LidarSimulator::LidarSimulator(const sensors::LidarProfile& profile,
       period_s_(profile.firing.period_us * 1e-6),
       turn_rate_((profile.rotation == sensors::Rotation::kClockwise ? -1 : 1) * 2 *
                  std::numbers::pi / profile.sweep_s) {
-  const std::size_t count = profile.elevations_deg.size();
-  if (count == 0) throw std::invalid_argument("elevations_deg: expected one a beam, found none");
+  const sensors::NoddingMirror& mirror = profile.firing.mirror;
+  has_mirror_ = mirror.turns_hz > 0;
+  if (has_mirror_) turn_rate_ *= mirror.turns_hz * profile.sweep_s;
+  const std::size_t count = has_mirror_ ? mirror.tilts_deg.size() : profile.elevations_deg.size();
+  if (count == 0) {
+    throw std::invalid_argument(std::string(has_mirror_ ? "firing.mirror.tilts" : "elevations") +
+                                "_deg: expected one a beam, found none");
+  }
   if (!(period_s_ > 0 && period_s_ <= profile.sweep_s)) {
     throw std::invalid_argument(
         fmt::format("firing.period_us: expected the time between two firings, found {:g}",
@@ -86,7 +93,7 @@ LidarSimulator::LidarSimulator(const sensors::LidarProfile& profile,
     const double offset =
         firing.azimuth_offsets_deg.empty() ? 0 : firing.azimuth_offsets_deg[i] * geometry::kDegree;
     const double azimuth = offset + turn_rate_ * after_s;
-    const double elevation = profile.elevations_deg[i] * geometry::kDegree;
+    const double elevation = has_mirror_ ? 0 : profile.elevations_deg[i] * geometry::kDegree;
     beams_.push_back(
         {after_s, std::cos(elevation), std::sin(elevation), std::cos(azimuth), std::sin(azimuth)});
   }
@@ -109,16 +116,19 @@ double LidarSimulator::stamp_s(std::size_t i) const {
 void LidarSimulator::aim(double seconds, double sweep_begin_s, std::size_t column,
                          Block& block) const {
   const MotionState sensor = motion_.state(seconds).at(T_body_lidar_);
-  const double head =
-      profile_.seam_azimuth_deg * geometry::kDegree + turn_rate_ * (seconds - sweep_begin_s);
+  // A mirror's turns do not begin anew with a sweep.
+  const double turned_s = has_mirror_ ? seconds : seconds - sweep_begin_s;
+  const double head = profile_.seam_azimuth_deg * geometry::kDegree + turn_rate_ * turned_s;
   const double c = std::cos(head);
   const double s = std::sin(head);
   for (std::size_t beam = 0; beam < beams_.size(); ++beam) {
     const Beam& b = beams_[beam];
     const double dt = b.after_s;
-    const Vector3d direction_lidar(b.cos_elevation * (c * b.cos_azimuth - s * b.sin_azimuth),
-                                   b.cos_elevation * (s * b.cos_azimuth + c * b.sin_azimuth),
-                                   b.sin_elevation);
+    const Vector3d direction_lidar =
+        has_mirror_
+            ? by_mirror(beam, seconds + dt)
+            : Vector3d(b.cos_elevation * (c * b.cos_azimuth - s * b.sin_azimuth),
+                       b.cos_elevation * (s * b.cos_azimuth + c * b.sin_azimuth), b.sin_elevation);
     const Vector3d turn =
         dt * (sensor.angular_rate_body + 0.5 * dt * sensor.angular_acceleration_body);
     const Vector3d turned =
@@ -130,6 +140,22 @@ void LidarSimulator::aim(double seconds, double sweep_begin_s, std::size_t colum
                            dt * (sensor.velocity_map + 0.5 * dt * sensor.acceleration_map);
     block.seconds[i] = seconds + dt;
   }
+}
+
+Vector3d LidarSimulator::by_mirror(std::size_t beam, double seconds) const {
+  const sensors::LidarFiring& firing = profile_.firing;
+  const sensors::NoddingMirror& mirror = firing.mirror;
+  const double at = profile_.seam_azimuth_deg * geometry::kDegree + turn_rate_ * seconds;
+  const double nod = std::cos(2 * std::numbers::pi * mirror.nods_hz * seconds);
+  const double middle_deg = 0.5 * (mirror.highest_deg + mirror.lowest_deg) +
+                            0.5 * (mirror.highest_deg - mirror.lowest_deg) * nod;
+  const double tilt_deg =
+      mirror.tilts_deg[beam] * std::cos(at - mirror.tilt_azimuth_deg * geometry::kDegree);
+  const double elevation = (middle_deg + tilt_deg) * geometry::kDegree;
+  const double offset =
+      firing.azimuth_offsets_deg.empty() ? 0 : firing.azimuth_offsets_deg[beam] * geometry::kDegree;
+  return {std::cos(elevation) * std::cos(at + offset), std::cos(elevation) * std::sin(at + offset),
+          std::sin(elevation)};
 }
 
 void LidarSimulator::keep(const Block& block, std::size_t column, std::uint64_t firing,

@@ -27,11 +27,24 @@ enum class TimeSource {
 
 enum class Rotation { kClockwise, kCounterclockwise };  ///< of the head, seen from above
 
+/// Beams that stand still beneath a mirror which turns many times in a sweep and nods meanwhile, so
+/// that no sweep repeats the directions of another (Livox Mid-360). At the azimuth a of the mirror
+/// beam k looks to the elevation m + tilts_deg[k] cos(a - tilt_azimuth_deg), where m goes to and
+/// fro between lowest_deg and highest_deg as a cosine does.
+struct NoddingMirror {
+  double turns_hz = 0;  ///< 0: there is none
+  double nods_hz = 0;
+  double lowest_deg = 0, highest_deg = 0;
+  std::vector<double> tilts_deg;  ///< of each beam
+  double tilt_azimuth_deg = 0;
+};
+
 /// When and where the beams of a spinning lidar fire. Only the simulator needs it.
 struct LidarFiring {
   double period_us = 0;          ///< from one firing of all beams to the next; 0: unknown
   std::vector<double> times_us;  ///< of each beam after the firing's start; empty: all at once
   std::vector<double> azimuth_offsets_deg;  ///< of each beam, counterclockwise; empty: none
+  NoddingMirror mirror;                     ///< in place of a head that turns once in a sweep
 };
 
 /// How well a lidar measures. Only the simulator needs it.

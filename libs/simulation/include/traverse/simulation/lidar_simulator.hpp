@@ -14,10 +14,10 @@
 
 namespace traverse::simulation {
 
-/// A spinning lidar on a moving vehicle. Every ray leaves from where the sensor is at that moment
-/// and in the direction of its beam; a ray that meets nothing gives no point. Ranges have the
-/// profile's noise and resolution; dark surfaces, far ones and those met at a flat angle are lost.
-/// Points are stored in firing order with ring and time.
+/// A spinning lidar on a moving vehicle, or one whose mirror turns and nods. Every ray leaves from
+/// where the sensor is at that moment and in the direction of its beam; a ray that meets nothing
+/// gives no point. Ranges have the profile's noise and resolution; dark surfaces, far ones and
+/// those met at a flat angle are lost. Points are stored in firing order with ring and time.
 class LidarSimulator {
  public:
   /// The references must outlive this.
@@ -38,6 +38,7 @@ class LidarSimulator {
  private:
   struct Block;
   void aim(double seconds, double sweep_begin_s, std::size_t column, Block& block) const;
+  Eigen::Vector3d by_mirror(std::size_t beam, double seconds) const;
   void keep(const Block& block, std::size_t column, std::uint64_t firing, double stamp_s,
             sensors::LidarScan& scan) const;
 
@@ -55,7 +56,8 @@ class LidarSimulator {
   };
   std::vector<Beam> beams_;
   double period_s_;
-  double turn_rate_;  ///< of the head, rad/s, counterclockwise
+  double turn_rate_;  ///< of the head or the mirror, rad/s, counterclockwise
+  bool has_mirror_ = false;
 };
 
 }  // namespace traverse::simulation
