@@ -50,14 +50,22 @@ TEST(Accuracy, OfEveryPresetOnTheShortTownIsAsItWas) {
   const std::string drive = (folder / "town.rawlog").string();
   ASSERT_EQ(testing::run_program("simulate town_short --sensor vlp16 -o " + drive).status, 0);
   Json found;
+  const auto note_figures = [&](const std::string& name, const std::string& options) {
+    const fs::path run = folder / name;
+    const auto result = testing::run_program("run " + drive + " -o " + run.string() +
+                                             " --no-report --no-hash --pipeline " + options);
+    ASSERT_EQ(result.status, 0) << name << ": " << result.messages;
+    found[name] = figures_of(run);
+  };
   for (const char* preset : {"traverse", "floam", "aloam", "loam", "gins-gnss", "gins-odom",
                              "gins-phone", "gins-window"}) {
-    const fs::path run = folder / preset;
-    const auto result = testing::run_program("run " + drive + " -o " + run.string() +
-                                             " --no-report --no-hash --pipeline " + preset);
-    ASSERT_EQ(result.status, 0) << preset << ": " << result.messages;
-    found[preset] = figures_of(run);
+    note_figures(preset, preset);
   }
+  note_figures("traverse-odometry", "traverse --no-slam");
+  note_figures("traverse-inertial-odometry", "traverse-inertial --no-slam");
+  // On a road that the lidar sees well an IMU must not spoil it.
+  const auto ape_of = [&](const char* name) { return found[name]["ape_rmse_m"].get<double>(); };
+  EXPECT_LE(ape_of("traverse-inertial-odometry"), 1.03 * ape_of("traverse-odometry"));
   if (std::getenv("TRAVERSE_WRITE_ACCURACY") != nullptr) {
     std::ofstream(golden_file()) << found.dump(1) << "\n";
   }

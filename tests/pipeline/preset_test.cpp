@@ -69,7 +69,7 @@ TEST(Preset, AFileInTheFormOfAPresetIsOne) {
 TEST(Preset, SaysWhatIsWrong) {
   EXPECT_THAT(error_of({"flaom", {}, {}}),
               HasSubstr("one of aloam, floam, gins-book, gins-gnss, gins-odom, gins-odom-paired, "
-                        "gins-phone, gins-window, loam, traverse"));
+                        "gins-phone, gins-window, loam, traverse, traverse-inertial"));
   EXPECT_THAT(error_of({"floam", {}, {"solver.huber=1"}}),
               HasSubstr("did you mean 'solver.huber_m'"));
   EXPECT_THAT(error_of({"floam", {}, {"solver.huber_m=-1"}}), HasSubstr("above 0"));

@@ -17,8 +17,7 @@ using testing::hills;
 using testing::winding_drive;
 using testing::winding_route;
 
-TEST(VehicleMotion, RatesAndAccelerationsAreDerivativesOfThePose) {
-  const VehicleMotion motion = winding_drive();
+void expect_derivatives(const VehicleMotion& motion) {
   geometry::Pose3 T_body_sensor;
   T_body_sensor.rotation = geometry::exp_so3({0.1, -0.2, 0.7});
   T_body_sensor.translation = {1.2, -0.4, 1.7};
@@ -39,6 +38,28 @@ TEST(VehicleMotion, RatesAndAccelerationsAreDerivativesOfThePose) {
     EXPECT_LT((rate - at.angular_rate_body).norm(), 1e-6) << t;
     EXPECT_LT((angular - at.angular_acceleration_body).norm(), 1e-5) << t;
   }
+}
+
+TEST(VehicleMotion, RatesAndAccelerationsAreDerivativesOfThePose) {
+  expect_derivatives(winding_drive());
+}
+
+TEST(VehicleMotion, CarriedByHandItTurnsFastAndStandsWhileItStands) {
+  RouteSettings route = winding_route();
+  route.speed_mps = 1.4;
+  GaitSettings gait;
+  gait.turn_deg = 64;
+  gait.bob_m = gait.sway_m = 0.03;
+  gait.tilt_deg = 3;
+  const VehicleMotion motion(route, {}, hills(), 9, {}, gait);
+  expect_derivatives(motion);
+  double fastest = 0;
+  for (double t = 0; t < motion.duration_s(); t += 0.05) {
+    fastest = std::max(fastest, motion.state(t).angular_rate_body.norm());
+  }
+  EXPECT_NEAR(fastest, 200 * M_PI / 180, 0.5);
+  EXPECT_LT(motion.state(0.1).velocity_map.norm(), 1e-9);
+  EXPECT_LT(motion.state(0.1).angular_rate_body.norm(), 1e-9);
 }
 
 TEST(VehicleMotion, TheExpansionIsExactToRoundingWithinAFiring) {

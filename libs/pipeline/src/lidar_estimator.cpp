@@ -90,6 +90,7 @@ LidarEstimator::LidarEstimator(const MakeOdometry& make, const dataset::Recordin
       odometry_(make(*sensor_.lidar, recording.motion_compensated)),
       has_times_(recording.motion_compensated ||
                  sensor_.lidar->time_source != sensors::TimeSource::kNone) {
+  odometry_->mount(recording.rig, sensor_);
   for_each_value(lidar::Frame{},
                  [&](std::string_view name, double) { columns_.emplace_back(name); });
   const auto& further = odometry_->further_columns();
@@ -98,18 +99,23 @@ LidarEstimator::LidarEstimator(const MakeOdometry& make, const dataset::Recordin
     imu_ = imu->label;
     T_lidar_imu_ = sensor_.T_body_sensor.inverse() * imu->T_body_sensor;
   }
+  if (const auto* wheels = recording.rig.first(sensors::SensorKind::kWheels)) {
+    wheels_ = wheels->label;
+  }
 }
 
 LidarEstimator::LidarEstimator(const LidarEstimator& other)
     : sensor_(other.sensor_),
       T_lidar_imu_(other.T_lidar_imu_),
       imu_(other.imu_),
+      wheels_(other.wheels_),
       odometry_(other.odometry_->clone()),
       columns_(other.columns_),
       latest_(other.latest_),
       frames_(other.frames_),
       not_registered_(other.not_registered_),
       imu_samples_(other.imu_samples_),
+      wheel_readings_(other.wheel_readings_),
       has_times_(other.has_times_),
       path_m_(other.path_m_),
       last_position_(other.last_position_) {}
@@ -141,6 +147,12 @@ const std::vector<std::string>& LidarEstimator::columns() const { return columns
 std::vector<PoseFrame> LidarEstimator::process(const sensors::Measurement& measurement) {
   if (const auto* imu = std::get_if<sensors::ImuSample>(&measurement)) {
     observe(*imu);
+    return {};
+  }
+  if (const auto* wheels = std::get_if<sensors::WheelOdometry>(&measurement)) {
+    if (wheels->sensor != wheels_) return {};
+    ++wheel_readings_;
+    odometry_->observe_wheels(*wheels);
     return {};
   }
   const auto* scan = std::get_if<std::shared_ptr<const sensors::LidarScan>>(&measurement);
@@ -218,33 +230,53 @@ std::vector<SensorUse> LidarEstimator::sensor_use() const {
   scans.used = frames_ - not_registered_;
   scans.rejected = not_registered_;
   if (not_registered_ > 0) scans.reason = "could not be registered";
-  if (imu_.empty()) return {std::move(scans)};
-  SensorUse imu{.label = imu_, .kind = sensors::SensorKind::kImu};
-  imu.is_taken = odometry_->uses_imu();
-  if (imu.is_taken) {
-    imu.used = imu_samples_;
-  } else {
-    imu.reason = "the odometry uses no IMU";
+  std::vector<SensorUse> uses{std::move(scans)};
+  if (!imu_.empty()) {
+    SensorUse imu{.label = imu_, .kind = sensors::SensorKind::kImu};
+    imu.is_taken = odometry_->uses_imu();
+    if (imu.is_taken) {
+      imu.used = imu_samples_;
+    } else {
+      imu.reason = "the odometry uses no IMU";
+    }
+    uses.push_back(std::move(imu));
   }
-  return {std::move(scans), std::move(imu)};
+  if (!wheels_.empty() && odometry_->uses_wheels()) {
+    SensorUse wheels{.label = wheels_, .kind = sensors::SensorKind::kWheels};
+    wheels.used = wheel_readings_;
+    uses.push_back(std::move(wheels));
+  }
+  return uses;
 }
 
 std::vector<HealthReason> LidarEstimator::troubles() const {
   constexpr double kBlur_m = 0.1;  // several times what ranges are off by
-  if (has_times_ || frames_ < 2) return {};
+  std::vector<HealthReason> reasons;
+  for (const lidar::Note& note : odometry_->notes()) {
+    if (!note.is_trouble) continue;
+    reasons.push_back({Health::kDegraded, "imu_not_used", note.name + ": " + note.value + "."});
+  }
+  if (has_times_ || frames_ < 2) return reasons;
   const double in_a_scan_m = path_m_ / static_cast<double>(frames_ - 1);
-  if (in_a_scan_m <= kBlur_m) return {};
-  return {{Health::kDegraded, "not_deskewed",
-           fmt::format("The lidar moves by {:.2g} m from scan to scan, and scans are used as if it "
-                       "stood: the times of their points are unknown (deskewed already: "
-                       "--recording motion_compensated=true).",
-                       in_a_scan_m)}};
+  if (in_a_scan_m <= kBlur_m) return reasons;
+  reasons.push_back(
+      {Health::kDegraded, "not_deskewed",
+       fmt::format("The lidar moves by {:.2g} m from scan to scan, and scans are used as if it "
+                   "stood: the times of their points are unknown (deskewed already: "
+                   "--recording motion_compensated=true).",
+                   in_a_scan_m)});
+  return reasons;
 }
 
 std::vector<Decision> LidarEstimator::decisions() const {
-  return {{"lidar", fmt::format("{} ({})", sensor_.label, sensor_.lidar->name)},
-          {"deskew", odometry_->deskew_note()},
-          {"points", points_are()}};
+  std::vector<Decision> decisions{
+      {"lidar", fmt::format("{} ({})", sensor_.label, sensor_.lidar->name)},
+      {"deskew", odometry_->deskew_note()},
+      {"points", points_are()}};
+  for (lidar::Note& note : odometry_->notes()) {
+    decisions.push_back({std::move(note.name), std::move(note.value)});
+  }
+  return decisions;
 }
 
 }  // namespace traverse::pipeline

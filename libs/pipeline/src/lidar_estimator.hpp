@@ -51,13 +51,15 @@ class LidarEstimator final : public Estimator {
 
   sensors::MountedSensor sensor_;
   geometry::Pose3 T_lidar_imu_;
-  std::string imu_;  ///< label of the first IMU of the rig; empty: none
+  std::string imu_;     ///< label of the first IMU of the rig; empty: none
+  std::string wheels_;  ///< of the first wheels
   std::unique_ptr<lidar::Odometry> odometry_;
   std::vector<std::string> columns_;
   std::vector<lidar::Frame> latest_;
   std::size_t frames_ = 0;
   std::size_t not_registered_ = 0;
   std::size_t imu_samples_ = 0;
+  std::size_t wheel_readings_ = 0;
   bool has_times_;  ///< of points, or the scans need none
   double path_m_ = 0;
   Eigen::Vector3d last_position_ = Eigen::Vector3d::Zero();

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "traverse/files/input_error.hpp"
+#include "traverse/fusion/inertial_odometry.hpp"
 #include "traverse/inertial/navigation_options.hpp"
 #include "traverse/loam/scan_to_map_odometry.hpp"
 #include "traverse/loam/two_stage_odometry.hpp"
@@ -164,6 +165,8 @@ EstimatorKinds& estimator_kinds() {
     add_odometry("voxel_map",
                  odometry_kind<voxel_map::VoxelMapOdometry, voxel_map::VoxelMapOdometryOptions>(),
                  kinds);
+    add_odometry("voxel_map_inertial",
+                 odometry_kind<fusion::InertialOdometry, fusion::InertialOdometryOptions>(), kinds);
     return kinds;
   }();
   return all;

@@ -43,7 +43,8 @@ Place place_of(const WorldDescription& world, std::size_t& triangles) {
 Simulation::Simulation(const WorldDescription& world, const sensors::LidarProfile& lidar)
     : world_(world),
       profile_(lidar),
-      motion_(world.route, world.suspension, terrain_of(world), seed_of(world), other_drive(world)),
+      motion_(world.route, world.suspension, terrain_of(world), seed_of(world), other_drive(world),
+              world.gait),
       surroundings_(place_of(world, triangles_)),
       lidar_(lidar, world.lidar.T_body_sensor(), surroundings_, motion_, seed_of_drive()) {}
 

@@ -64,6 +64,7 @@ void bind(config::Binder& b, WorldDescription& w) {
   group("terrain", "the shape of the ground", w.terrain);
   group("place", "what is built along the route", w.place);
   group("suspension", "how the body moves on its wheels", w.suspension);
+  group("gait", "how a person carries it, in place of wheels", w.gait);
   group("lidar", "where the lidar sits", w.lidar);
   group("imu", "the inertial measurement unit", w.imu);
   group("wheels", "the wheels' pulse counters", w.wheels);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -15,33 +14,15 @@
 #include "traverse/optimization/solution.hpp"
 #include "traverse/optimization/termination.hpp"
 #include "traverse/parallel/workers.hpp"
-#include "traverse/statistics/quantile.hpp"
+#include "traverse/voxel_map/scan_information.hpp"
 
 #include "condensed_cost.hpp"
-#include "facing_information.hpp"
 
 namespace traverse::voxel_map {
 
 using optimization::Termination;
 
 namespace {
-
-/// Of the mean information of a match: above it no noise of normals comes near.
-constexpr double kPlainlySeen = 0.05;
-
-double usual_range(std::vector<float> ranges) {
-  return ranges.empty() ? 1 : statistics::element_at_share(ranges, 0.5);
-}
-
-/// The information of the matches on the body twist, rotation in units of `scale_m`, a match's
-/// mean.
-lidar::Matrix6 information(const NormalEquations& normal, const Eigen::Matrix3d& R_map_lidar,
-                           double scale_m) {
-  lidar::Matrix6 axes = lidar::Matrix6::Identity();
-  axes.topLeftCorner<3, 3>() /= scale_m;
-  axes.bottomRightCorner<3, 3>() = R_map_lidar;
-  return axes.transpose() * normal.H * axes / normal.weight;
-}
 
 ceres::Problem::Options problem_options() {
   ceres::Problem::Options options;  // everything in the problem lives on the caller's stack
@@ -113,7 +94,7 @@ class Registration {
         workers_(workers),
         matches_(matches),
         ms_(ms),
-        scale_m_(usual_range(sample.planar.range)) {
+        scale_m_(usual_range_m(sample)) {
     matches_.forget();
   }
 
@@ -169,14 +150,10 @@ class Registration {
   /// Associates at the present pose and solves once. \returns the step (body twist); nothing, and
   /// the guess as the pose, where there are too few matches or no solution
   std::optional<geometry::Twist> step_once(const geometry::Pose3& guess, double gate_m) {
+    associate_at(sample_, result_.T_map_lidar, motion_, map_, gate_m, options_.matches, workers_,
+                 moved_, matches_, ms_);
     lidar::Stopwatch watch;
     lidar::RegistrationHealth& health = result_.health;
-    const geometry::Twist velocity = motion_.velocity_at(result_.T_map_lidar);
-    to_local(sample_.planar, result_.T_map_lidar, velocity, workers_, planar_);
-    to_local(sample_.edges, result_.T_map_lidar, velocity, workers_, edges_);
-    watch.lap(ms_.deskew);
-    associate(sample_, planar_, edges_, map_, gate_m, options_.matches, workers_, matches_);
-    watch.lap(ms_.associate);
 
     ++health.steps;
     health.line_matches = matches_.line_1.size();
@@ -214,22 +191,9 @@ class Registration {
 
   void judge_directions() {
     lidar::Stopwatch watch;
-    const Eigen::Matrix3d& R = T_map_lidar_of_normal_.rotation;
-    lidar::Observability& seen = result_.health.observability;
-    seen = lidar::observability(information(normal_, R, scale_m_), scale_m_,
-                                std::numeric_limits<double>::lowest());
-    while (seen.degenerate < 6 && is_degenerate(seen, seen.degenerate)) ++seen.degenerate;
+    result_.health.observability = judged_observability(normal_, matches_, T_map_lidar_of_normal_,
+                                                        motion_, scale_m_, options_.min_eigenvalue);
     watch.lap(ms_.solve);
-  }
-
-  /// Whether what the matches say along an eigenvector of their information is not more than what
-  /// noise of the map's normals explains: only rows that face the direction count.
-  bool is_degenerate(const lidar::Observability& seen, int direction) const {
-    if (seen.eigenvalues[direction] > kPlainlySeen) return false;
-    lidar::Vector6 along = seen.directions.col(direction);
-    along.head<3>() /= scale_m_;
-    const double facing = facing_information(matches_, T_map_lidar_of_normal_, motion_, along);
-    return facing < options_.min_eigenvalue;
   }
 
   const SweepSample& sample_;
@@ -240,8 +204,7 @@ class Registration {
   ScanMatches& matches_;
   lidar::StageTimes& ms_;
   double scale_m_;
-  LocalPoints planar_;
-  LocalPoints edges_;
+  MovedSample moved_;
   NormalEquations normal_;
   geometry::Pose3 T_map_lidar_of_normal_;
   Alignment result_;

@@ -1,4 +1,4 @@
-#include "matched_points.hpp"
+#include "traverse/voxel_map/matched_points.hpp"
 
 #include <cmath>
 

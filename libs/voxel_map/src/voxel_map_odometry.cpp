@@ -1,16 +1,13 @@
 #include "traverse/voxel_map/voxel_map_odometry.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "traverse/lidar/deskew.hpp"
 #include "traverse/lidar/stopwatch.hpp"
 #include "traverse/parallel/workers.hpp"
-#include "traverse/sensors/sweep_timing.hpp"
+#include "traverse/voxel_map/matched_points.hpp"
 #include "traverse/voxel_map/row_factor_kinds.hpp"
 #include "traverse/voxel_map/used_points.hpp"
-
-#include "matched_points.hpp"
 
 namespace traverse::voxel_map {
 
@@ -40,31 +37,24 @@ VoxelMapOdometry::VoxelMapOdometry(const VoxelMapOdometryOptions& options,
       workers_(std::make_shared<parallel::Workers>(options.threads)),
       map_(options.map),
       held_back_(options.start.scans),
-      sweeps_(profile) {}
+      sampler_(options.sampling, profile, deskew_note_ == "on") {}
 
 std::vector<lidar::Frame> VoxelMapOdometry::process(const sensors::LidarScan& scan) {
-  return advance_all(held_back_.add(sampled(scan)));
+  return process(sampler_.sample(scan, *workers_));
 }
 
-SweepSample VoxelMapOdometry::sampled(const sensors::LidarScan& scan) {
-  SweepSample sample = sample_sweep(scan, profile_, options_.sampling, *workers_);
-  if (deskew_note_ != "on") return sample;
-  if (profile_.time_source == sensors::TimeSource::kAzimuth) {
-    count_times_from((0.5 - profile_.stamp_fraction) * profile_.sweep_s, sample);
-    return sample;
-  }
-  const auto [first_s, last_s] = time_span(sample);
-  if (sweeps_.lacks_times(first_s, last_s)) {
-    for (SweepPoints* points : {&sample.surface, &sample.planar, &sample.edges}) {
-      std::fill(points->time.begin(), points->time.end(), 0.0F);
-    }
-    sample.middle_s = sweeps_.usual_middle_s();
-    sweeps_.learn(scan.stamp, 0, 0);
-  } else {
-    count_times_from(0.5 * (first_s + last_s), sample);
-    sweeps_.learn(scan.stamp, first_s, last_s);
-  }
-  return sample;
+std::vector<lidar::Frame> VoxelMapOdometry::process(SweepSample sample) {
+  return advance_all(held_back_.add(std::move(sample)));
+}
+
+void VoxelMapOdometry::go_on(const VoxelMap& map, const Known& last) {
+  held_back_ = lidar::HeldBack<SweepSample>(0);
+  map_ = map;
+  frames_ = last.frames;
+  last_stamp_ = last.stamp;
+  last_middle_s_ = last.middle_s;
+  T_map_last_ = last.T_map_middle;
+  velocity_ = last.velocity;
 }
 
 std::vector<lidar::Frame> VoxelMapOdometry::finish() { return advance_all(held_back_.release()); }
@@ -101,7 +91,7 @@ std::vector<lidar::Frame> VoxelMapOdometry::advance_all(const std::vector<SweepS
   if (frames_ == 0 && scans.size() >= 2) {
     std::vector<double> intervals_s;
     for (std::size_t i = 1; i < scans.size(); ++i) {
-      intervals_s.push_back(interval(scans[i - 1].stamp, scans[i - 1].middle_s, scans[i]));
+      intervals_s.push_back(sampler_.interval(scans[i - 1].stamp, scans[i - 1].middle_s, scans[i]));
     }
     velocity_ = find_initial_velocity(scans, intervals_s, deskew_note_ == "on", options_.map,
                                       options_.alignment, options_.start, *workers_);
@@ -136,7 +126,7 @@ void VoxelMapOdometry::settle(const std::vector<SweepSample>& scans,
   for (std::size_t i = 1; i < scans.size(); ++i) {
     others.insert(scans[i], middle(i), motion(i), *workers_);
   }
-  const double dt = interval(scans[0].stamp, scans[0].middle_s, scans[1]);
+  const double dt = sampler_.interval(scans[0].stamp, scans[0].middle_s, scans[1]);
   const MotionModel before{middle(0) * geometry::exp_se3(-dt * frames[0].velocity), dt, deskew};
   lidar::StageTimes ignored;
   const Alignment first = align(scans[0], others, before, middle(0), options_.alignment,
@@ -162,13 +152,6 @@ void VoxelMapOdometry::settle(const std::vector<SweepSample>& scans,
   frames[last] = advance(scans[last], 0);
 }
 
-double VoxelMapOdometry::interval(geometry::Stamp earlier, double earlier_middle_s,
-                                  const SweepSample& later) const {
-  const double stamped = sweeps_.interval(earlier, later.stamp);
-  const double seconds = stamped > 0 ? stamped + later.middle_s - earlier_middle_s : stamped;
-  return seconds > 0 ? seconds : profile_.sweep_s;
-}
-
 lidar::Frame VoxelMapOdometry::advance(const SweepSample& sample, double start_ms) {
   lidar::Frame frame;
   frame.index = frames_;
@@ -183,7 +166,7 @@ lidar::Frame VoxelMapOdometry::advance(const SweepSample& sample, double start_m
   const bool deskew = deskew_note_ == "on";
   geometry::Pose3 T_map_middle = geometry::exp_se3(sample.middle_s * velocity_);  // of the sweep
   if (frames_ > 0) {
-    const double dt = interval(last_stamp_, last_middle_s_, sample);
+    const double dt = sampler_.interval(last_stamp_, last_middle_s_, sample);
     const geometry::Pose3 predicted = T_map_last_ * geometry::exp_se3(dt * velocity_);
     const Effort effort =
         frames_ < static_cast<std::size_t>(options_.first_frames) ? kFirstFrames : Effort{};

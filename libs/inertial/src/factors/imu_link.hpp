@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "traverse/inertial/interpolated_reading.hpp"
 #include "traverse/inertial/nav_state.hpp"
 #include "traverse/sensors/imu_sample.hpp"
 
@@ -10,10 +11,6 @@
 #include "factors/preintegration.hpp"
 
 namespace traverse::inertial {
-
-/// `before` and `after` at a moment between them.
-sensors::ImuSample interpolated(const sensors::ImuSample& before, const sensors::ImuSample& after,
-                                geometry::Stamp stamp);
 
 /// What the IMU has measured since the newest state, up to its last reading.
 class ImuLink {

@@ -84,6 +84,18 @@ void bind(config::Binder& b, SuspensionSettings& s) {
            "rms of roll and pitch from the road at full speed");
 }
 
+void bind(config::Binder& b, GaitSettings& g) {
+  b.number("turn_deg", g.turn_deg, Range::between(0, 170),
+           "amplitude of looking left and right of the way");
+  b.number("turn_hz", g.turn_hz, Range::between(0.05, 2), "how often");
+  b.number("step_hz", g.step_hz, Range::between(0.5, 2), "steps a second");
+  b.number("bob_m", g.bob_m, Range::between(0, 0.2), "amplitude of up and down, once a step");
+  b.number("sway_m", g.sway_m, Range::between(0, 0.2),
+           "amplitude of left and right, once in two steps");
+  b.number("tilt_deg", g.tilt_deg, Range::between(0, 30),
+           "amplitude of pitch, once a step, and of roll, once in two");
+}
+
 MotionState MotionState::at(const Pose3& T_body_sensor) const {
   const Eigen::Matrix3d& R = T_map_body.rotation;
   const Eigen::Vector3d& arm = T_body_sensor.translation;
@@ -110,8 +122,10 @@ Pose3 MotionState::pose_after(double seconds) const {
 
 VehicleMotion::VehicleMotion(const RouteSettings& route, const SuspensionSettings& suspension,
                              const Terrain& terrain, std::uint64_t seed,
-                             std::optional<std::uint64_t> other_drive)
-    : route_(route, other_drive), terrain_(terrain) {
+                             std::optional<std::uint64_t> other_drive, const GaitSettings& gait)
+    : route_(route, other_drive),
+      terrain_(terrain),
+      is_carried_(gait.turn_deg > 0 || gait.bob_m > 0 || gait.sway_m > 0 || gait.tilt_deg > 0) {
   const SpeedPlan plan = plan_speed(route_, at_a_pace_of_its_own(route, other_drive));
   const std::vector<double>& s = plan.progress_m;
   constexpr double dt = SpeedPlan::kStep;
@@ -121,6 +135,7 @@ VehicleMotion::VehicleMotion(const RouteSettings& route, const SuspensionSetting
   std::mt19937_64 generator(other_drive.value_or(seed));
   std::normal_distribution<double> bump(0, suspension.roughness_deg * 4);
   std::vector<double> progress_controls, roll_controls, pitch_controls;
+  std::vector<double> turn_controls, bob_controls, sway_controls;
   double roll_bump = 0;
   double pitch_bump = 0;
   for (std::size_t i = 0; i < s.size(); ++i) {
@@ -139,8 +154,16 @@ VehicleMotion::VehicleMotion(const RouteSettings& route, const SuspensionSetting
         (-suspension.pitch_deg_per_mps2 * acceleration + pitch_bump) * geometry::kDegree, dt);
     if (i % kTiltControlEvery != 0) continue;
     progress_controls.push_back(s[i]);
-    roll_controls.push_back(roll_now);
-    pitch_controls.push_back(pitch_now);
+    const double share = speed / route.speed_mps;
+    const auto swing = [&](double amplitude, double hz) {
+      return share * amplitude * std::sin(2 * std::numbers::pi * hz * static_cast<double>(i) * dt);
+    };
+    const double tilt = gait.tilt_deg * geometry::kDegree;
+    roll_controls.push_back(is_carried_ ? roll_now + swing(tilt, 0.5 * gait.step_hz) : roll_now);
+    pitch_controls.push_back(is_carried_ ? pitch_now + swing(tilt, gait.step_hz) : pitch_now);
+    turn_controls.push_back(swing(gait.turn_deg * geometry::kDegree, gait.turn_hz));
+    bob_controls.push_back(swing(gait.bob_m, gait.step_hz));
+    sway_controls.push_back(swing(gait.sway_m, 0.5 * gait.step_hz));
   }
   duration_s_ = dt * static_cast<double>(s.size() - 1);
   constexpr double step = dt * static_cast<double>(kTiltControlEvery);
@@ -148,6 +171,9 @@ VehicleMotion::VehicleMotion(const RouteSettings& route, const SuspensionSetting
   progress_ = UniformSpline(std::move(progress_controls), step, ends);
   roll_ = UniformSpline(std::move(roll_controls), step, ends);
   pitch_ = UniformSpline(std::move(pitch_controls), step, ends);
+  turn_ = UniformSpline(std::move(turn_controls), step, ends);
+  bob_ = UniformSpline(std::move(bob_controls), step, ends);
+  sway_ = UniformSpline(std::move(sway_controls), step, ends);
 }
 
 Jet VehicleMotion::progress(double seconds) const { return progress_(Jet(seconds, 1, 0)); }
@@ -166,8 +192,15 @@ MotionState VehicleMotion::state(double seconds) const {
   on_wheels.col(0) = ahead;
   on_wheels.col(1) = cross(up, ahead);
   on_wheels.col(2) = up;
-  const JetMatrix R = on_wheels * pitch_then_roll(pitch_(time), roll_(time));
-  const JetVector p(place.x, place.y, ground.height);
+  JetMatrix R = on_wheels * pitch_then_roll(pitch_(time), roll_(time));
+  JetVector p(place.x, place.y, ground.height);
+  if (is_carried_) {
+    const Jet turn = turn_(time);
+    JetMatrix about_z;
+    about_z << cos(turn), -sin(turn), Jet(0), sin(turn), cos(turn), Jet(0), Jet(0), Jet(0), Jet(1);
+    R = on_wheels * about_z * pitch_then_roll(pitch_(time), roll_(time));
+    p += on_wheels.col(1) * sway_(time) + on_wheels.col(2) * bob_(time);
+  }
 
   const Eigen::Matrix3d R0 = values(R);
   const Eigen::Matrix3d R1 = rates(R);

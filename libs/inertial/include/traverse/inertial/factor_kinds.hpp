@@ -24,4 +24,7 @@ std::vector<optimization::FactorKind> inertial_kinds_between(const NavState& i, 
 std::vector<optimization::FactorUse> factors_of(const NavigationOptions& options, bool has_gnss,
                                                 bool has_wheels);
 
+/// Those of an InertialChain that is constrained by a sensor's poses.
+std::vector<optimization::FactorUse> factors_of_chain(bool has_wheels);
+
 }  // namespace traverse::inertial

@@ -12,6 +12,8 @@
 #include "traverse/optimization/factor_kind.hpp"
 #include "traverse/sensors/imu_sample.hpp"
 #include "traverse/sensors/lidar_scan.hpp"
+#include "traverse/sensors/rig.hpp"
+#include "traverse/sensors/wheel_odometry.hpp"
 
 namespace traverse::lidar {
 
@@ -24,6 +26,13 @@ struct MatchedPoint {
   Eigen::Vector3d foot_map;   ///< the nearest point of the line or plane
   Eigen::Vector3d direction;  ///< unit: of the line, or the plane's normal; map frame
   double residual_m = 0;      ///< from foot_map to p_map; planes: positive on the normal's side
+};
+
+/// Something that an odometry decided or found out about a recording, in words.
+struct Note {
+  std::string name;
+  std::string value;
+  bool is_trouble = false;  ///< the result is less worth for it
 };
 
 /// An algorithm that follows a lidar from scan to scan. Everything is in the lidar's own frame; the
@@ -41,11 +50,23 @@ class Odometry {
   /// The frames still held back when the recording ends early.
   virtual std::vector<Frame> finish() = 0;
 
+  /// Is told, before any measurement, what else there is and where: odometry of the lidar alone
+  /// does not need it. \param lidar the sensor of `rig` whose scans it takes
+  virtual void mount(const sensors::Rig& /*rig*/, const sensors::MountedSensor& /*lidar*/) {}
+
   /// Takes an inertial sample, its vectors turned into the lidar's axes, before the scans that end
   /// after it. Odometry that uses no IMU ignores it.
   virtual void observe(const sensors::ImuSample& /*sample_lidar*/) {}
   /// Whether it uses one.
   virtual bool uses_imu() const { return false; }
+
+  /// Takes a reading of the wheels, as an IMU's. Odometry that uses no wheels ignores it.
+  virtual void observe_wheels(const sensors::WheelOdometry& /*reading*/) {}
+  /// Whether it uses them.
+  virtual bool uses_wheels() const { return false; }
+
+  /// What it decided beyond deskew_note(), for the run's record.
+  virtual std::vector<Note> notes() const { return {}; }
 
   /// Names of the values in Frame::further: what this algorithm tells of a frame beyond what all
   /// do.

@@ -22,6 +22,18 @@ struct SuspensionSettings {
 };
 void bind(config::Binder& binder, SuspensionSettings& settings);
 
+/// How a person carries the body along the route, in place of wheels that only roll: everything
+/// grows with the speed, so that who stands stands still.
+struct GaitSettings {
+  double turn_deg = 0;   ///< amplitude of looking left and right of the way
+  double turn_hz = 0.5;  ///< of it
+  double step_hz = 1.8;  ///< steps a second
+  double bob_m = 0;      ///< amplitude of up and down, once a step
+  double sway_m = 0;     ///< of left and right, once in two steps
+  double tilt_deg = 0;   ///< of pitch, once a step, and of roll, once in two
+};
+void bind(config::Binder& binder, GaitSettings& settings);
+
 /// A rigid body that moves, at one moment. Map: x east, y north, z up. Body: middle of the rear
 /// axle on the ground, x ahead, y left, z up.
 struct MotionState {
@@ -47,7 +59,7 @@ class VehicleMotion {
   /// \throws ImpossibleRoute
   VehicleMotion(const RouteSettings& route, const SuspensionSettings& suspension,
                 const Terrain& terrain, std::uint64_t seed,
-                std::optional<std::uint64_t> other_drive = {});
+                std::optional<std::uint64_t> other_drive = {}, const GaitSettings& gait = {});
 
   double duration_s() const { return duration_s_; }
   const Route& route() const { return route_; }
@@ -60,6 +72,8 @@ class VehicleMotion {
   Route route_;
   Terrain terrain_;
   UniformSpline progress_, roll_, pitch_;
+  UniformSpline turn_, bob_, sway_;  // of a gait
+  bool is_carried_ = false;
   double duration_s_ = 0;
 };
 

@@ -37,6 +37,7 @@ struct WorldDescription {
   TerrainSettings terrain;
   PlaceSettings place;
   SuspensionSettings suspension;
+  GaitSettings gait;
   Mounting lidar{1.0, 0, 1.9, 0, 0, 0};
   ImuSettings imu;
   WheelSettings wheels;

@@ -8,8 +8,8 @@
 #include "traverse/lidar/held_back.hpp"
 #include "traverse/lidar/odometry.hpp"
 #include "traverse/parallel/workers.hpp"
-#include "traverse/sensors/steady_sweeps.hpp"
 #include "traverse/voxel_map/start_search.hpp"
+#include "traverse/voxel_map/sweep_sampler.hpp"
 
 namespace traverse::voxel_map {
 
@@ -49,6 +49,18 @@ class VoxelMapOdometry final : public lidar::Odometry {
                    bool motion_compensated);
 
   std::vector<lidar::Frame> process(const sensors::LidarScan& scan) override;
+  /// The same of a scan that sampler() has sampled, for odometry that is built on this one.
+  std::vector<lidar::Frame> process(SweepSample sample);
+  SweepSampler& sampler() { return sampler_; }
+  /// Goes on from what another odometry has found, in its map.
+  struct Known {
+    std::size_t frames = 0;
+    geometry::Stamp stamp;  ///< of the last scan
+    double middle_s = 0;    ///< of its sweep, after that
+    geometry::Pose3 T_map_middle;
+    geometry::Twist velocity = geometry::Twist::Zero();  ///< body twist a second
+  };
+  void go_on(const VoxelMap& map, const Known& last);
   std::vector<lidar::Frame> finish() override;
   const std::string& deskew_note() const override { return deskew_note_; }
 
@@ -77,10 +89,6 @@ class VoxelMapOdometry final : public lidar::Odometry {
   /// are told from it, and its own planes, by which the others were registered, are those of a
   /// single scan. The map is built once more, with the first scan at the origin of it.
   void settle(const std::vector<SweepSample>& scans, std::vector<lidar::Frame>& frames);
-  /// The sample of the scan, with times from the middle of its sweep where it is deskewed.
-  SweepSample sampled(const sensors::LidarScan& scan);
-  /// Seconds between the moments that are estimated.
-  double interval(geometry::Stamp earlier, double earlier_middle_s, const SweepSample& later) const;
 
   VoxelMapOdometryOptions options_;
   sensors::LidarProfile profile_;
@@ -89,7 +97,7 @@ class VoxelMapOdometry final : public lidar::Odometry {
   VoxelMap map_;
 
   lidar::HeldBack<SweepSample> held_back_;
-  sensors::SteadySweeps sweeps_;
+  SweepSampler sampler_;
 
   std::size_t frames_ = 0;
   geometry::Stamp last_stamp_;
