@@ -48,7 +48,8 @@ struct ImportArguments {
   std::string trajectory;
   std::string name;
   pipeline::ImportOptions options;
-  std::string time_offset;  ///< seconds or "auto"; empty: none
+  bool are_paths_as_given = false;  ///< by a batch, whose runs get their place later
+  std::string time_offset;          ///< seconds or "auto"; empty: none
   std::vector<std::string> recording;
 };
 
@@ -144,8 +145,9 @@ std::vector<std::string> assignments_of(const pipeline::ImportOptions& options) 
 void import_run(ImportArguments& arguments) {
   sort_recording(arguments);
   pipeline::ImportOptions& options = arguments.options;
-  options.file = std::filesystem::absolute(arguments.trajectory).lexically_normal().string();
-  if (!options.timing.empty()) {
+  const auto lasting = std::filesystem::absolute(arguments.trajectory).lexically_normal();
+  options.file = arguments.are_paths_as_given ? arguments.trajectory : lasting.string();
+  if (!options.timing.empty() && !arguments.are_paths_as_given) {
     options.timing = std::filesystem::absolute(options.timing).lexically_normal().string();
   }
   options.first_scan = static_cast<std::int64_t>(arguments.run.first);
@@ -248,6 +250,7 @@ void add_import(CLI::App& app) {
       ->add_option("--reference-frame", arguments->run.reference_frame,
                    "what moves along the reference: body, lidar or camera")
       ->check(CLI::IsMember({"body", "lidar", "camera"}));
+  command->add_flag("--paths-as-given", arguments->are_paths_as_given)->group("");
   command->callback([arguments] { import_run(*arguments); });
 }
 

@@ -91,6 +91,10 @@ TEST_F(BatchCommands, SixSystemsGiveTheRightRows) {
       EXPECT_GT(figure(run, "peak_memory_mb"), 0);
       EXPECT_FALSE(run["metrics"].contains("frame_median_ms"));
     }
+    const std::string folder = runs[name][0]["folder"];
+    const std::string record = files::read_text(folder_ / "out" / folder / "run.json");
+    EXPECT_THAT(record, ::testing::Not(HasSubstr(".partial"))) << "the place that it had at work";
+    EXPECT_THAT(record, HasSubstr("\"system/"));
     EXPECT_EQ(runs[name][0]["trajectory_sha256"], runs[name][1]["trajectory_sha256"]) << name;
   }
   for (const json& run : runs["crash"]) {

@@ -158,7 +158,7 @@ TEST_F(ImportedPosesTest, AnotherClockIsAnErrorUntilItIsStated) {
 TEST_F(ImportedPosesTest, PosesWithoutStampsGoByTheNumberOfTheScan) {
   const Trajectory path = curve(0, 1.9, 0.1);
   std::string text;
-  for (const std::size_t k : {2, 3, 5}) {  // KITTI-360's numbers before the poses
+  for (const std::size_t k : {2U, 3U, 5U}) {  // KITTI-360's numbers before the poses
     dataset::write_kitti(folder_ / "one.txt", Trajectory::unstamped({path.pose(k)}));
     text += std::to_string(k) + " " + files::read_text(folder_ / "one.txt");
   }

@@ -280,6 +280,12 @@ std::optional<fs::path> find_trajectory(const fs::path& folder, const std::strin
   return std::nullopt;
 }
 
+/// A path below a folder from there; any other as it is.
+fs::path told_from(const fs::path& folder, const fs::path& path) {
+  const fs::path from_folder = path.lexically_relative(folder);
+  return from_folder.empty() || *from_folder.begin() == ".." ? path : from_folder;
+}
+
 /// A shell tells by its exit status that a program which it started was ended by a signal.
 void take_signal_of_shell(ProcessEnd& end) {
   constexpr int kMostSignals = 64;
@@ -312,7 +318,7 @@ ProcessEnd run_command(const Job& job, const ExecutionContext& context, const fs
                     fmt::format("threads: {}\nwall_s: {}\npeak_memory_mb: {}\n", job.limits.threads,
                                 end.wall_s, end.peak_memory_mb));
   std::replace(start.arguments.begin(), start.arguments.end(), std::string(Job::kTrajectory),
-               trajectory->string());
+               told_from(work, *trajectory).string());
   start.appends = true;
   ProcessEnd taken = run_process(start, context.stop);
   taken.wall_s = end.wall_s;

@@ -84,6 +84,7 @@ void add_import(const PlannedPipeline& pipeline, const AddWords& add,
   add("--max-gap", fmt::format("{}", command.max_gap_s));
   if (!command.deskew) words.emplace_back("--no-deskew");
   add("--timing", kCommandCost);
+  words.emplace_back("--paths-as-given");  // from the run's folder, which gets its name later
 }
 
 void add_preset(const Variant& variant, const AddWords& add) {
