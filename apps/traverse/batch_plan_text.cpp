@@ -36,7 +36,8 @@ void print_plan(const batch::Plan& plan) {
   }
   fmt::print("pipelines\n");
   for (const auto& pipeline : plan.pipelines) {
-    fmt::print("  {:<24}{}", pipeline.name, pipeline.preset);
+    fmt::print("  {:<24}{}", pipeline.name,
+               pipeline.command ? pipeline.command.text : pipeline.preset);
     for (const std::string& assignment : pipeline.assignments) fmt::print(" {}", assignment);
     fmt::print("\n");
     for (const auto& axis : pipeline.grid) {

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "traverse/dataset/trajectory_files.hpp"
+#include "traverse/evaluation/checkpoints.hpp"
 #include "traverse/evaluation/json.hpp"
 #include "traverse/evaluation/table.hpp"
 #include "traverse/files/input_error.hpp"
@@ -22,6 +23,7 @@
 #include "traverse/files/numbers.hpp"
 #include "traverse/pipeline/run_digests.hpp"
 #include "traverse/pipeline/run_folder.hpp"
+#include "traverse/report/evaluation_pictures.hpp"
 
 #include "budget_option.hpp"
 #include "commands.hpp"
@@ -40,8 +42,11 @@ constexpr const char* kEvaluateExamples = R"(Examples:
   traverse evaluate estimate.tum --reference reference.tum --align se3
   traverse evaluate RUN --rpe 10f --rpe 100m --all-pairs --json evaluation.json
   traverse evaluate 00_estimate.txt --reference 00.txt --format kitti --align sim3 --relation full
+  traverse evaluate out.bag --topic /odometry --reference truth.csv --from 1700000010 --to 1700000070
+  traverse evaluate estimate.tum --reference reference.tum --align se3 --plot pictures
+  traverse evaluate RUN --checkpoints points.csv --point 0.3,0,1.2
 
-ESTIMATE and REFERENCE are TUM, KITTI or EuRoC files; KITTI files go by index, others by time: each
+ESTIMATE and REFERENCE are TUM, KITTI, EuRoC or CSV files, g2o or bags; KITTI files go by index, others by time: each
 pose of the shorter file gets the pose of the other that is nearest in time, the earlier of two, if
 it is within --max-time-difference. Times are compared as evo does, as doubles of seconds: at Unix
 times they are 0.24 us apart, and that decides between two poses that are equally near. Positions on
@@ -56,12 +61,20 @@ in $TMPDIR or /tmp, 96 bytes a pose, until the program ends.)";
 struct EvaluateArguments {
   fs::path estimate;
   std::optional<fs::path> reference;
-  TrajectoryFormat format = TrajectoryFormat::kAuto;
+  dataset::TrajectoryChoice choice;  ///< of the estimate; its format is that of both files
+  std::optional<TrajectoryFormat> reference_format;
+  std::string reference_topic;
+  std::optional<double> from_s;  ///< poses before are left out, of both files
+  std::optional<double> to_s;    ///< and those after
+  std::optional<fs::path> checkpoints;
+  std::vector<double> point;  ///< what stood over them, body frame; empty: the body's origin
+  bool has_alignment = false;
   evaluation::EvaluationOptions options;
   std::vector<std::string> relations;
   std::vector<std::string> deltas;
   bool all_pairs = false;
   evaluation::PairsFrom pairs_from = evaluation::PairsFrom::kEstimate;
+  std::optional<fs::path> plot;  ///< folder for pictures
   std::optional<fs::path> json;
   std::optional<fs::path> budget;
 };
@@ -120,9 +133,25 @@ CLI::Validator delta() {
           "DELTA"};
 }
 
+/// Whether the estimate is that of a run: of folders all but those that hold a bag.
+bool is_run(const fs::path& estimate) {
+  if (!fs::is_directory(estimate)) return false;
+  return std::none_of(fs::directory_iterator(estimate), fs::directory_iterator(),
+                      [](const fs::directory_entry& entry) {
+                        const fs::path extension = entry.path().extension();
+                        return extension == ".bag" || extension == ".mcap" || extension == ".db3";
+                      });
+}
+
 void require_sensible(const EvaluateArguments& arguments) {
-  if (!arguments.reference && !fs::is_directory(arguments.estimate)) {
-    throw CLI::ValidationError("--reference", "is needed unless ESTIMATE is a run folder");
+  if (!arguments.reference && !arguments.checkpoints && !is_run(arguments.estimate)) {
+    throw CLI::ValidationError(
+        "--reference",
+        "or --checkpoints is needed unless ESTIMATE is a run folder; without either "
+        "`traverse import` tells what poses alone can: how sharp their map is");
+  }
+  if (arguments.from_s && arguments.to_s && *arguments.to_s < *arguments.from_s) {
+    throw CLI::ValidationError("--to", "is before --from");
   }
   const AlignmentMode mode = arguments.options.alignment.mode;
   const bool from_positions = mode != AlignmentMode::kNone && mode != AlignmentMode::kOrigin;
@@ -195,18 +224,52 @@ void require_no_gaps(const fs::path& file, const std::vector<std::size_t>& frame
   }
 }
 
+/// Whether a pose is of the time that is asked for.
+bool is_within(const std::optional<geometry::Stamp>& stamp, const fs::path& file,
+               const EvaluateArguments& arguments) {
+  if (!arguments.from_s && !arguments.to_s) return true;
+  if (!stamp) {
+    throw files::InputError(file, files::Place::whole_file(),
+                            "poses with stamps, since --from or --to is given",
+                            "poses that go by number");
+  }
+  return !(arguments.from_s && *stamp < geometry::Stamp::from_seconds(*arguments.from_s)) &&
+         !(arguments.to_s && *stamp > geometry::Stamp::from_seconds(*arguments.to_s));
+}
+
+/// The poses of that time, in memory.
+geometry::Trajectory trajectory_within(const fs::path& file,
+                                       const dataset::TrajectoryChoice& choice,
+                                       const EvaluateArguments& arguments) {
+  std::vector<geometry::Stamp> stamps;
+  std::vector<geometry::Pose3> poses;
+  dataset::read_poses(
+      file, choice,
+      [&](const std::optional<geometry::Stamp>& stamp, const geometry::Pose3& T_map_body) {
+        if (!is_within(stamp, file, arguments)) return;
+        if (stamp) stamps.push_back(*stamp);
+        poses.push_back(T_map_body);
+      });
+  return stamps.empty() ? geometry::Trajectory::unstamped(std::move(poses))
+                        : geometry::Trajectory::stamped(std::move(stamps), std::move(poses));
+}
+
 /// A trajectory that need not fit into memory, and as what its file was read.
 struct ReadTrajectory {
   evaluation::TrajectoryStore poses;
   dataset::TrajectoryReading reading;
 
-  ReadTrajectory(const fs::path& file, TrajectoryFormat format)
+  ReadTrajectory(const fs::path& file, const dataset::TrajectoryChoice& choice,
+                 const EvaluateArguments& arguments)
       : reading(dataset::read_poses(
-            file, format,
+            file, choice,
             [&](const std::optional<geometry::Stamp>& stamp, const geometry::Pose3& T_map_body) {
-              poses.push_back(stamp, T_map_body);
+              if (is_within(stamp, file, arguments)) poses.push_back(stamp, T_map_body);
             })) {
     require_no_gaps(file, reading.frame_numbers);
+    if (poses.size() > 0) return;
+    throw files::InputError(file, files::Place::whole_file(), "poses from --from until --to",
+                            "none");
   }
 
   evaluation::TrajectoryView view() const {
@@ -223,23 +286,57 @@ struct ReadTrajectory {
   }
 };
 
+/// Residuals at surveyed points, in place of a reference trajectory.
+void evaluate_at_checkpoints(const EvaluateArguments& arguments) {
+  fs::path estimate_file = arguments.estimate;
+  if (is_run(arguments.estimate)) {
+    estimate_file = arguments.estimate / "trajectory.tum";
+    pipeline::require_as_written(pipeline::RunFolder{arguments.estimate}, {estimate_file});
+    print_status_of_run(arguments.estimate);
+  }
+  const geometry::Trajectory estimate = dataset::read_trajectory(estimate_file, arguments.choice);
+  evaluation::CheckpointOptions options;
+  if (arguments.has_alignment) options.alignment = arguments.options.alignment.mode;
+  if (options.alignment == AlignmentMode::kOrigin || options.alignment == AlignmentMode::kScale) {
+    throw CLI::ValidationError("--align", "of checkpoints is none, se3 or sim3");
+  }
+  if (!arguments.point.empty()) {
+    options.p_body = {arguments.point[0], arguments.point[1], arguments.point[2]};
+  }
+  const evaluation::CheckpointEvaluation result = evaluation::evaluate_checkpoints(
+      estimate, evaluation::read_checkpoints(*arguments.checkpoints), options);
+  fmt::print("{}", evaluation::to_table(result));
+  if (arguments.json) write_json_output(*arguments.json, evaluation::to_json(result));
+}
+
 /// The document is written as it is made: in memory it is many times as large as what it tells.
 void evaluate(const EvaluateArguments& arguments) {
   require_sensible(arguments);
+  if (arguments.checkpoints) {
+    evaluate_at_checkpoints(arguments);
+    return;
+  }
   evaluation::EvaluationOptions options = arguments.options;
   choose_relations(arguments.relations, options);
   choose_rpe(arguments, options);
 
   fs::path estimate_file = arguments.estimate;
   fs::path reference_file = arguments.reference.value_or(arguments.estimate / "reference.tum");
-  if (fs::is_directory(arguments.estimate)) {
+  if (is_run(arguments.estimate)) {
     require_files_of_run(arguments);
     estimate_file = arguments.estimate / "trajectory.tum";
     take_frame_of_run(arguments.estimate, options.kitti);
     print_status_of_run(arguments.estimate);
   }
-  const ReadTrajectory estimate(estimate_file, arguments.format);
-  const ReadTrajectory reference(reference_file, arguments.format);
+  const ReadTrajectory estimate(estimate_file, arguments.choice, arguments);
+  const dataset::TrajectoryChoice of_reference{
+      arguments.reference_format.value_or(is_run(arguments.estimate) ||
+                                                  !arguments.choice.columns.empty() ||
+                                                  !arguments.choice.topic.empty()
+                                              ? TrajectoryFormat::kAuto
+                                              : arguments.choice.format),
+      "", arguments.reference_topic};
+  const ReadTrajectory reference(reference_file, of_reference, arguments);
   evaluation::Evaluation evaluation =
       evaluation::evaluate(estimate.view(), reference.view(), options);
   estimate.describe_in(evaluation.estimate, estimate_file);
@@ -249,6 +346,16 @@ void evaluate(const EvaluateArguments& arguments) {
   if (arguments.json) {
     write_json_output(*arguments.json,
                       [&](std::ostream& stream) { evaluation::write_json(evaluation, stream); });
+  }
+  if (arguments.plot) {
+    const auto read = [&](const fs::path& file, const dataset::TrajectoryChoice& choice) {
+      return trajectory_within(file, choice, arguments);
+    };
+    const std::size_t pictures = report::draw_evaluation(
+        {read(estimate_file, arguments.choice), read(reference_file, of_reference), evaluation,
+         estimate_file.filename().string(), reference_file.filename().string()},
+        *arguments.plot);
+    fmt::print("{} pictures in {}\n", pictures, arguments.plot->string());
   }
   if (arguments.budget) require_kept(report::check_budget(*arguments.budget, evaluation));
 }
@@ -270,8 +377,41 @@ void add_evaluate(CLI::App& app) {
       .add_option("--reference", arguments->reference,
                   "trajectory file; of a run folder its reference.tum is the default")
       ->type_name("FILE");
-  add_choice(command, "--format", dataset::kTrajectoryFormatNames, arguments->format,
+  add_choice(command, "--format", dataset::kTrajectoryFormatNames, arguments->choice.format,
              "of both files; auto looks at the content");
+  command
+      .add_option_function<std::string>(
+          "--reference-format",
+          [arguments](const std::string& name) {
+            arguments->reference_format = named(dataset::kTrajectoryFormatNames, name);
+          },
+          "of the reference alone")
+      ->check(one_of(dataset::kTrajectoryFormatNames));
+  command
+      .add_option("--columns", arguments->choice.columns,
+                  "of an estimate in a CSV file: t,x,y,z,qx,qy,qz,qw in their order, or t=NAME,...")
+      ->type_name("NAMES");
+  command.add_option("--topic", arguments->choice.topic, "of an estimate in a bag")
+      ->type_name("TOPIC");
+  command.add_option("--reference-topic", arguments->reference_topic, "of a reference in a bag")
+      ->type_name("TOPIC");
+  command
+      .add_option("--from", arguments->from_s, "leave poses before this stamp out, of both files")
+      ->check(seconds_from(-9.2e9));
+  command.add_option("--to", arguments->to_s, "leave poses after this stamp out")
+      ->check(seconds_from(-9.2e9));
+  command
+      .add_option("--checkpoints", arguments->checkpoints,
+                  "surveyed points in place of a reference: a CSV file with name, stamp_s (or "
+                  "from_s, to_s, or the number of a stop), e_m, n_m, h_m, sigma_m, use")
+      ->type_name("FILE")
+      ->check(CLI::ExistingFile);
+  command
+      .add_option("--point", arguments->point,
+                  "what stood over the checkpoints, in the body: an antenna, a prism")
+      ->type_name("X,Y,Z")
+      ->delimiter(',')
+      ->expected(3);
   add_choice(command, "--align", evaluation::kAlignmentNames, options.alignment.mode,
              "bring the estimate onto the reference: its first pose (origin), by least squares "
              "(se3; sim3 with scale), or the scale alone");
@@ -313,9 +453,18 @@ void add_evaluate(CLI::App& app) {
       .add_option("--json", arguments->json,
                   "write every figure with the values behind it to this file")
       ->type_name("FILE");
+  command
+      .add_option(
+          "--plot", arguments->plot,
+          "folder for pictures: trajectories, errors along them, over time, and their spread; "
+          "PNG, SVG, PDF")
+      ->type_name("DIR");
   add_budget_option(command, arguments->budget);
   command.footer(kEvaluateExamples);
-  command.callback([arguments] { evaluate(*arguments); });
+  command.callback([arguments, &command] {
+    arguments->has_alignment = command.count("--align") > 0;
+    evaluate(*arguments);
+  });
 }
 
 }  // namespace traverse::app

@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
   app.footer(kMainExamples);
   traverse::app::add_run(app);
   traverse::app::add_localize(app);
+  traverse::app::add_import(app);
   traverse::app::add_batch(app);
   traverse::app::add_evaluate(app);
   traverse::app::add_report(app);

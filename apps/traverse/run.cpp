@@ -20,6 +20,7 @@
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/number_text.hpp"
+#include "traverse/pipeline/imported_poses.hpp"
 #include "traverse/pipeline/run_destination.hpp"
 #include "traverse/pipeline/run_digests.hpp"
 #include "traverse/pipeline/utm_trajectory.hpp"
@@ -32,37 +33,14 @@
 #include "installed_files.hpp"
 #include "interruption.hpp"
 #include "progress_bar.hpp"
-#include "recording_options.hpp"
 #include "report_progress.hpp"
+#include "run_arguments.hpp"
 #include "run_summary.hpp"
 #include "standard_streams.hpp"
 
 namespace traverse::app {
 
 namespace {
-
-struct RunArguments {
-  RecordingOptions recording;
-  std::string folder;
-  pipeline::PresetRequest preset;
-  std::string reference;
-  std::string reference_frame;
-  std::string gnss_outages;
-  std::optional<bool> slam;
-  std::string map;  ///< run folder to localise in; empty: none
-  std::vector<double> start;
-  std::vector<std::string> accepted;  ///< codes of contradictions
-  std::size_t first = 0;
-  std::optional<std::size_t> last;
-  int threads = 1;
-  bool report = true;
-  bool utm = false;
-  std::optional<std::filesystem::path> budget;
-  bool hash = true;
-  bool bench_factors = false;
-  bool force = false;
-  bool is_private = false;
-};
 
 std::size_t expected_frames(const dataset::Source& source, const pipeline::RunOptions& options) {
   const std::size_t scans = source.info().expected_scans;
@@ -101,6 +79,7 @@ pipeline::PresetRequest preset_request(const RunArguments& arguments,
 
 /// A wrong preset or setting is wrong usage, told before anything is opened.
 pipeline::Preset checked_preset(const RunArguments& arguments, const std::filesystem::path& share) {
+  if (arguments.imported) return pipeline::imported_preset(arguments.imported->name, {});
   try {
     pipeline::Preset preset = pipeline::load_preset(preset_request(arguments, share), share);
     print_notes(pipeline::settings_notes(preset));
@@ -221,6 +200,7 @@ std::vector<pipeline::RunDestination::Input> inputs_of(const RunArguments& argum
   std::vector<pipeline::RunDestination::Input> inputs{
       {"the recording", arguments.recording.recording}};
   if (!arguments.map.empty()) inputs.push_back({"the map", arguments.map});
+  if (arguments.imported) inputs.push_back({"the trajectory", arguments.imported->trajectory});
   return inputs;
 }
 
@@ -317,15 +297,99 @@ void finish_run(const RunArguments& arguments, pipeline::RunDestination& destina
   if (extras.budget()) require_kept(*extras.budget());
 }
 
-void run_recording(RunArguments& arguments, const std::vector<std::string>& command) {
+constexpr const char* kRunExamples = R"(Examples:
+  traverse run 2011_09_26_drive_0001 -o RUN            a recording that states its own facts
+  traverse run sequences/00 -o RUN --last 499          the first 500 frames of KITTI odometry 00
+  traverse run drive.rawlog -o RUN --pipeline floam --set solver.line_residual=vector
+  traverse run drive -o RUN --no-slam                  odometry alone, no loops
+  traverse run log.txt -o RUN --pipeline gins-window --drop-gnss 10,30
+                                                       GNSS, IMU and wheels; what it is worth without
+  traverse run drive -o RUN --reference truth.tum --threads 4
+Ctrl-C ends the run in order: what is done so far is written and evaluated, without pictures; the exit
+status is 130. An earlier run in RUN is replaced when the new one is complete; one that was interrupted
+or failed stands beside it as RUN.interrupted (--force: replaces it). Files in RUN that are not a
+run's own stay, and a folder that is not an earlier run is refused.
+`traverse pipelines` lists the presets, `traverse pipelines traverse` their settings.)";
+
+constexpr const char* kLocalizeExamples = R"(Examples:
+  traverse run drive.rawlog -o MAP                              a map, with its keyframes
+  traverse localize other.rawlog --map MAP -o RUN               searched for in all of the map
+  traverse localize other.rawlog --map MAP -o RUN --start 12,0,1.5,90
+The trajectory is in the map's frame. Where the place was found or lost stands in the report (what was
+decided) and in frames.csv, columns located and fits_map.)";
+
+std::vector<std::string> contradiction_codes() {
+  std::vector<std::string> codes;
+  for (const auto& check : plausibility::list_checks()) codes.push_back(check.code);
+  return codes;
+}
+
+/// The options that every command has which estimates a recording.
+CLI::App* add_estimating(CLI::App& app, const std::string& name, const std::string& description,
+                         const std::shared_ptr<RunArguments>& arguments) {
+  CLI::App* run = app.add_subcommand(name, description);
+  add_recording_options(*run, arguments->recording);
+  add_run_folder_options(*run, *arguments);
+  run->add_option("--pipeline", arguments->preset.name, "preset, or a YAML file in its form")
+      ->capture_default_str();
+  run->add_option("--config", arguments->preset.config_files, "YAML file laid over the preset")
+      ->type_name("FILE")
+      ->check(CLI::ExistingFile)
+      ->allow_extra_args(false);
+  run->add_option("--set", arguments->preset.assignments, "one setting, stronger than any file")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  run->add_option("--threads", arguments->threads, "threads; the result does not depend on it")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  run->add_flag("--utm", arguments->utm,
+                "write the trajectory in UTM coordinates too (RUN/trajectory_utm.tum)");
+  run->callback([arguments] { make_run(*arguments, command_line()); });
+  return run;
+}
+
+}  // namespace
+
+void add_run_folder_options(CLI::App& command, RunArguments& arguments) {
+  command.add_option("-o,--output", arguments.folder, "run folder to write")
+      ->required()
+      ->type_name("RUN");
+  command.add_flag("--force", arguments.force,
+                   "replace an earlier run even if this one is interrupted or fails");
+  command.add_option("--first", arguments.first, "first frame, counted from 0")
+      ->capture_default_str();
+  command.add_option("--last", arguments.last, "last frame, included");
+  command
+      .add_option(
+          "--accept", arguments.accepted,
+          "go on although the recording contradicts itself in this way; the code is in the message")
+      ->type_name("CODE")
+      // Without a description: of --help the list of all codes would be the longest part.
+      ->check(CLI::IsMember(contradiction_codes()).description(""))
+      ->allow_extra_args(false);
+  command.add_flag("!--no-report", arguments.report, "no pictures and no report.html");
+  add_budget_option(command, arguments.budget);
+  command.add_flag("--private", arguments.is_private,
+                   "run.json and the page do not tell whose machine made the run, nor paths on it");
+  command.add_flag("!--no-hash", arguments.hash, "do not compute the recording's SHA-256");
+}
+
+void make_run(RunArguments& arguments, const std::vector<std::string>& command) {
+  if (arguments.last && *arguments.last < arguments.first) {
+    throw CLI::ValidationError("--last", "is before --first");
+  }
   add_statements_and_settings(arguments);
   const InstalledFiles installed = find_installed_files();
-  const pipeline::Preset preset = checked_preset(arguments, installed.share);
+  pipeline::Preset preset = checked_preset(arguments, installed.share);
   if (arguments.budget && report::require_valid_budget(*arguments.budget)) {
     arguments.is_private = true;
   }
   pipeline::RunDestination destination(arguments.folder, inputs_of(arguments));
   const std::unique_ptr<dataset::Source> source = arguments.recording.open();
+  if (arguments.imported) {
+    preset = pipeline::imported_preset(arguments.imported->name,
+                                       arguments.imported->assignments(*source));
+  }
   pipeline::Pipeline pipeline = pipeline::make_pipeline(preset, source->info(), arguments.threads);
   pipeline::RunOptions options = run_options(arguments, command);
   options.statements = arguments.recording.lasting_statements();
@@ -363,83 +427,6 @@ void run_recording(RunArguments& arguments, const std::vector<std::string>& comm
   }
   finish_run(arguments, destination, record, extras, stop);
 }
-
-constexpr const char* kRunExamples = R"(Examples:
-  traverse run 2011_09_26_drive_0001 -o RUN            a recording that states its own facts
-  traverse run sequences/00 -o RUN --last 499          the first 500 frames of KITTI odometry 00
-  traverse run drive.rawlog -o RUN --pipeline floam --set solver.line_residual=vector
-  traverse run drive -o RUN --no-slam                  odometry alone, no loops
-  traverse run log.txt -o RUN --pipeline gins-window --drop-gnss 10,30
-                                                       GNSS, IMU and wheels; what it is worth without
-  traverse run drive -o RUN --reference truth.tum --threads 4
-Ctrl-C ends the run in order: what is done so far is written and evaluated, without pictures; the exit
-status is 130. An earlier run in RUN is replaced when the new one is complete; one that was interrupted
-or failed stands beside it as RUN.interrupted (--force: replaces it). Files in RUN that are not a
-run's own stay, and a folder that is not an earlier run is refused.
-`traverse pipelines` lists the presets, `traverse pipelines traverse` their settings.)";
-
-constexpr const char* kLocalizeExamples = R"(Examples:
-  traverse run drive.rawlog -o MAP                              a map, with its keyframes
-  traverse localize other.rawlog --map MAP -o RUN               searched for in all of the map
-  traverse localize other.rawlog --map MAP -o RUN --start 12,0,1.5,90
-The trajectory is in the map's frame. Where the place was found or lost stands in the report (what was
-decided) and in frames.csv, columns located and fits_map.)";
-
-std::vector<std::string> contradiction_codes() {
-  std::vector<std::string> codes;
-  for (const auto& check : plausibility::list_checks()) codes.push_back(check.code);
-  return codes;
-}
-
-/// The options that every command has which estimates a recording.
-CLI::App* add_estimating(CLI::App& app, const std::string& name, const std::string& description,
-                         const std::shared_ptr<RunArguments>& arguments) {
-  CLI::App* run = app.add_subcommand(name, description);
-  add_recording_options(*run, arguments->recording);
-  run->add_option("-o,--output", arguments->folder, "run folder to write")
-      ->required()
-      ->type_name("RUN");
-  run->add_flag("--force", arguments->force,
-                "replace an earlier run even if this one is interrupted or fails");
-  run->add_option("--pipeline", arguments->preset.name, "preset, or a YAML file in its form")
-      ->capture_default_str();
-  run->add_option("--config", arguments->preset.config_files, "YAML file laid over the preset")
-      ->type_name("FILE")
-      ->check(CLI::ExistingFile)
-      ->allow_extra_args(false);
-  run->add_option("--set", arguments->preset.assignments, "one setting, stronger than any file")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  run->add_option("--first", arguments->first, "first frame, counted from 0")
-      ->capture_default_str();
-  run->add_option("--last", arguments->last, "last frame, included");
-  run->add_option("--threads", arguments->threads, "threads; the result does not depend on it")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
-  run->add_option(
-         "--accept", arguments->accepted,
-         "go on although the recording contradicts itself in this way; the code is in the message")
-      ->type_name("CODE")
-      // Without a description: of --help the list of all codes would be the longest part.
-      ->check(CLI::IsMember(contradiction_codes()).description(""))
-      ->allow_extra_args(false);
-  run->add_flag("!--no-report", arguments->report, "no pictures and no report.html");
-  run->add_flag("--utm", arguments->utm,
-                "write the trajectory in UTM coordinates too (RUN/trajectory_utm.tum)");
-  add_budget_option(*run, arguments->budget);
-  run->add_flag("--private", arguments->is_private,
-                "run.json and the page do not tell whose machine made the run, nor paths on it");
-  run->add_flag("!--no-hash", arguments->hash, "do not compute the recording's SHA-256");
-  run->callback([arguments] {
-    if (arguments->last && *arguments->last < arguments->first) {
-      throw CLI::ValidationError("--last", "is before --first");
-    }
-    run_recording(*arguments, command_line());
-  });
-  return run;
-}
-
-}  // namespace
 
 void add_run(CLI::App& app) {
   auto arguments = std::make_shared<RunArguments>();

@@ -114,10 +114,15 @@ void add_figures(const LookedAtRun& run, Table& table) {
                             run.record()["map"]["points"].count())});
   }
   const JsonValue timing = run.record()["timing_ms"];
+  if (timing.is_null()) {
+    table.add_row({"time", "not known: another program made the poses"});
+    return;
+  }
+  const JsonValue threads = run.record()["threads"];
   table.add_row({"time", fmt::format("{:.1f} ms per frame (median), {:.1f} ms at 95 %, {} thread{}",
                                      timing["frame_median"].number(), timing["frame_p95"].number(),
-                                     run.record()["threads"].count(),
-                                     run.record()["threads"].count() == 1 ? "" : "s")});
+                                     threads.is_null() ? "?" : std::to_string(threads.count()),
+                                     !threads.is_null() && threads.count() == 1 ? "" : "s")});
 }
 
 /// What can be done with it.
@@ -192,7 +197,9 @@ std::string run_json(const fs::path& folder) {
       }
     }
     if (evaluation.consistency) figures["map_entropy_nats"] = evaluation.consistency->mme;
-    figures["frame_median_ms"] = run.record()["timing_ms"]["frame_median"].number();
+    if (const JsonValue timing = run.record()["timing_ms"]; !timing.is_null()) {
+      figures["frame_median_ms"] = timing["frame_median"].number();
+    }
   }
   json["next"] = next_commands(run);
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";

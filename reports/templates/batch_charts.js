@@ -114,6 +114,32 @@ function drawBoxes(metricIndex, boxesBy, groupsBy, scale) {
   traverse.forgetGraphs();
 }
 
+// Accuracy against time: a point a pipeline and setting, and the line of those that none beats in both.
+function drawFront() {
+  const figure = document.getElementById("front");
+  if (!figure) return;
+  const ranked = [...(data.ranking ?? [])].sort((a, b) => a.wall_s - b.wall_s || a.value - b.value);
+  if (ranked.length < 2) {
+    figure.remove();
+    return;
+  }
+  const metric = data.metrics[0];
+  const values = ranked.map((one) => one.value);
+  const chart = traverse.chart(figure, `${withUnit(metric)} against wall time`, "wall time of a run [s], mean over the recordings", `${metric.title} against wall time`);
+  figure.prepend(traverse.legend(ranked.map((one) => one.name)));
+  const labels = ["wall time", ...ranked.map((one, k) => `${k}`), "front"];
+  const rows = ranked.map((one, k) => [one.wall_s, ...ranked.map((other, j) => (j === k ? one.value : null)), one.front ? one.value : null]);
+  chart.draw(rows, {
+    labels, colors: [...ranked.map((one, k) => traverse.colour(k)), "#8a8f99"], drawPoints: true, pointSize: 5, strokeWidth: 0,
+    connectSeparatedPoints: true, logscale: Math.min(...values) > 0 && Math.max(...values) > 20 * Math.min(...values),
+    series: { front: { strokeWidth: 1, strokePattern: [4, 4], pointSize: 1 } }, xRangePad: 24, yRangePad: 18,
+    highlightCallback: (event, x, points, row) => chart.tell(ranked[row].name,
+      [{ colour: traverse.colour(row), name: metric.title, value: ranked[row].value, unit: metric.unit },
+        { colour: traverse.colour(row), name: "wall time", value: ranked[row].wall_s, unit: "s" }]),
+    unhighlightCallback: () => chart.tell(null),
+  });
+}
+
 // The grid's parameters with the values that variants have, in the order of the plan.
 function gridParameters() {
   const parameters = new Map();
@@ -200,6 +226,7 @@ fill("boxes");
 fill("groups");
 fill("scale");
 drawLeaderboard();
+drawFront();
 drawBaseline();
 redraw();
 drawRuns();

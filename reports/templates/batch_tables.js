@@ -58,9 +58,35 @@ function okRuns(recording, variant) {
 }
 const meansOf = (runs) => data.metrics.map((metric, k) => mean(runs.map((run) => run.values[k])));
 
+// How far a value is on the way from the best of its column to the worst, in six steps: 0 the best.
+function heatOf(value, column, lower) {
+  const known = column.filter((other) => other !== null);
+  if (value === null || known.length < 2) return "";
+  const scale = known.every((other) => other > 0) ? Math.log : (number) => number;
+  const [best, worst] = [Math.min, Math.max].map((pick) => scale(pick(...known)));
+  if (best === worst) return "";
+  const share = (scale(value) - best) / (worst - best);
+  return `heat${Math.round(5 * (lower ? share : 1 - share))}`;
+}
+
+// The first run of a recording and a variant that is not ok, as a link to it.
+const badByPlace = new Map();
+for (const run of data.runs) {
+  const key = `${run.recording} ${run.variant}`;
+  if (run.outcome === null || run.outcome === "ok" || run.outcome === "degraded" || badByPlace.has(key)) continue;
+  badByPlace.set(key, run);
+}
+function whyMissing(recording, variant) {
+  const run = badByPlace.get(`${recording} ${variant}`);
+  if (!run) return { value: null };
+  return { value: null, html: `<a href="${escapeHtml(run.folder)}/${run.report ? "report.html" : "log.txt"}">${escapeHtml(run.outcome)}</a>` };
+}
+
 function drawMatrix(metric) {
+  const columns = data.recordings.map((recording, r) => data.variants.map((variant, v) => mean(okRuns(r, v).map((run) => run.values[metric]))));
+  const { lower } = data.metrics[metric];
   const rows = data.variants.map((variant, v) => ({
-    cells: [variant.name, ...data.recordings.map((recording, r) => mean(okRuns(r, v).map((run) => run.values[metric])))],
+    cells: [variant.name, ...columns.map((column, r) => (column[v] === null ? whyMissing(r, v) : { value: column[v], className: heatOf(column[v], column, lower) }))],
   }));
   drawTable("matrix", withUnit(data.metrics[metric]), [{ head: "Pipeline", name: true },
     ...data.recordings.map((name) => ({ head: name, numeric: true, lower: data.metrics[metric].lower }))], rows, { best: true, atFirst: RUNS_AT_FIRST });

@@ -208,5 +208,26 @@ TEST_F(PlanTest, RunsAreCountedBeforeTheirListIsMade) {
   EXPECT_THAT(describe(plan), HasSubstr("more than can be counted runs"));
 }
 
+TEST(Plan, ARecipeIsACommandWithTheEntrysOwnKeysOverIt) {
+  const testing::TemporaryFolder folder;
+  files::write_text(folder / "drive.rawlog", "");
+  const Plan plan = plan_of(folder,
+                            "recordings: [drive.rawlog]\npipelines:\n  - system: kiss-icp\n"
+                            "  - {system: kiss-icp, name: other, frame: body}\n");
+  EXPECT_EQ(plan.pipelines[0].name, "KISS-ICP");
+  EXPECT_EQ(plan.pipelines[0].command.frame, "lidar");
+  EXPECT_EQ(plan.pipelines[1].name, "other");
+  EXPECT_EQ(plan.pipelines[1].command.frame, "body");
+  EXPECT_EQ(plan.pipelines[1].command.text, plan.pipelines[0].command.text);
+  EXPECT_THAT(plan.pipelines[1].command.formats(), ::testing::ElementsAre("kitti"));
+  try {
+    plan_of(folder, "recordings: [drive.rawlog]\npipelines:\n  - system: nobodys\n");
+    ADD_FAILURE();
+  } catch (const files::InputError& error) {
+    EXPECT_EQ(error.place().text, "line 3");
+    EXPECT_THAT(error.expected(), ::testing::HasSubstr("a recipe of: kiss-icp"));
+  }
+}
+
 }  // namespace
 }  // namespace traverse::batch

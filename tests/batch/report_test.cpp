@@ -46,7 +46,7 @@ struct Made {
 
 TEST(BatchReport, CarriesTheNumbersOfEveryRun) {
   const Made made;
-  const auto json = nlohmann::json::parse(report_data_json(made.data()));
+  const auto json = nlohmann::json::parse(report_data_json(made.data(), std::nullopt));
   EXPECT_EQ(json["recordings"], nlohmann::json({"a", "b"}));
   ASSERT_EQ(json["runs"].size(), 3U);
   EXPECT_EQ(json["runs"][0]["values"], nlohmann::json({0.25, nullptr}));

@@ -89,12 +89,12 @@ TEST(Summary, CountsRunsOverBudget) {
 
 TEST(Summary, TellsRepeatsThatDiffer) {
   Results results = made_results();
-  EXPECT_EQ(check_repeats(results).groups, 1U);
-  EXPECT_EQ(check_repeats(results).different, 0U);
+  EXPECT_EQ(check_repeats(results, "ape_translation_rmse").groups, 1U);
+  EXPECT_EQ(check_repeats(results, "ape_translation_rmse").different, 0U);
   Completion other = made_completion(results.jobs()[4], {});
   other.trajectory_sha256 = "another";
   results.add(other);
-  EXPECT_EQ(check_repeats(results).different, 1U);
+  EXPECT_EQ(check_repeats(results, "ape_translation_rmse").different, 1U);
 }
 
 TEST(Summary, LatexMarksTheBestAndEscapes) {

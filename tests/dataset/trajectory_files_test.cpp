@@ -313,7 +313,8 @@ TEST(TrajectoryFiles, RefusesToWriteWhatCouldNotBeReadAndLeavesNothing) {
 
 TEST(TrajectoryFiles, FormatsHaveNames) {
   EXPECT_EQ(name_of(TrajectoryFormat::kEuroc), "euroc");
-  EXPECT_EQ(kTrajectoryFormatNames.size(), 4U);
+  EXPECT_EQ(name_of(TrajectoryFormat::kG2o), "g2o");
+  EXPECT_EQ(kTrajectoryFormatNames.size(), 7U);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <string>
 #include <sys/wait.h>
 #include <thread>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,6 +14,7 @@
 
 #include "end_to_end/batch_program.hpp"
 #include "end_to_end/program.hpp"
+#include "end_to_end/stand_in_systems.hpp"
 #include "temporary_folder.hpp"
 
 namespace traverse {
@@ -120,6 +122,22 @@ TEST_F(BatchOnSlurm, ASubmissionThatSlurmRefusesIsToldWithItsMessage) {
   const ProgramResult result = batch(plan, "out", "--executor slurm");
   EXPECT_EQ(result.status, 1);
   EXPECT_THAT(result.messages, HasSubstr("nowhere"));
+}
+
+TEST_F(BatchOnSlurm, ProgramsThatAreNotOursGiveTheSameRows) {
+  testing::write_stand_in_systems(folder_.path());
+  const std::string plan = testing::stand_in_pipelines() + "limits: {time_s: 4}\n";
+  const ProgramResult cluster = batch(plan, "cluster", "--executor slurm");
+  EXPECT_EQ(cluster.status, 1);
+  EXPECT_THAT(cluster.messages, HasSubstr("1 timed out, 1 crashed"));
+  EXPECT_THAT(batch(plan, "local", "").messages, HasSubstr("1 timed out, 1 crashed"));
+  auto on_cluster = comparable_results(folder_ / "cluster");
+  auto here = comparable_results(folder_ / "local");
+  ASSERT_EQ(on_cluster.size(), 7U);
+  const auto is_chance = [](const std::vector<std::string>& row) { return row[1] == "chance"; };
+  EXPECT_EQ(std::erase_if(on_cluster, is_chance), 1U);
+  EXPECT_EQ(std::erase_if(here, is_chance), 1U);
+  EXPECT_EQ(on_cluster, here);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -128,6 +129,55 @@ TEST_F(EvaluateCommand, WhatCannotBeEvaluatedIsStatusOneAndWritesNothing) {
                           file("trajectory.tum") + " --json " + file("no/such/folder"))
                   .everything(),
               HasSubstr("cannot be written"));
+}
+
+TEST_F(EvaluateCommand, TimesCutBothTrajectories) {
+  const auto estimate = testing::golden_estimate();
+  const double from = estimate.stamp(100).seconds();
+  const double to = estimate.stamp(299).seconds();
+  const Json json = json_of(both_files() + " --from " + std::to_string(from - 0.01) + " --to " +
+                            std::to_string(to + 0.01));
+  EXPECT_EQ(json.at("estimate").at("poses"), 200);
+  const ProgramResult none = run_program(both_files() + " --from 1e6");
+  EXPECT_EQ(none.status, 1);
+  EXPECT_THAT(none.messages, HasSubstr("expected poses from --from until --to, found none"));
+  EXPECT_EQ(run_program(both_files() + " --from 2 --to 1").status, 2);
+}
+
+TEST_F(EvaluateCommand, SurveyedPointsStandInForAReference) {
+  const auto reference = testing::golden_reference();
+  std::string points = "name,stamp_s,e_m,n_m,h_m,sigma_m,use\n";
+  for (std::size_t k = 0; k < 12; ++k) {
+    const std::size_t pose = 5 + k * (reference.size() - 10) / 12;
+    const Eigen::Vector3d p = reference.pose(pose).translation;
+    points += fmt::format("P{},{},{},{},{},0.02,{}\n", k, to_text(reference.stamp(pose)),
+                          p.x() + 0.02, p.y(), p.z() - 0.01, k % 3 == 0 ? "control" : "check");
+  }
+  files::write_text(folder_ / "points.csv", points);
+  const std::string arguments =
+      "evaluate " + file("reference.tum") + " --checkpoints " + file("points.csv");
+  const Json json = json_of(arguments + " --align none");
+  EXPECT_EQ(json.at("control").at("count"), 4);
+  EXPECT_NEAR(json.at("check").at("rmse_horizontal_m"), 0.02, 1e-6);
+  EXPECT_NEAR(json.at("residuals").at(7).at("residual_m").at(2), 0.01, 1e-6);
+  EXPECT_NEAR(json_of(arguments).at("check").at("rmse_3d_m"), 0, 1e-6)
+      << "the offset is one for all";
+  EXPECT_EQ(run_program(arguments + " --align origin").status, 2);
+}
+
+TEST_F(EvaluateCommand, PicturesAreDrawnOfStampedPosesAndOfNumberedOnes) {
+  dataset::write_kitti(folder_ / "a.txt", testing::golden_reference());
+  for (const std::string& arguments :
+       {both_files(), "evaluate " + file("a.txt") + " --reference " + file("a.txt")}) {
+    std::filesystem::remove_all(folder_ / "pictures");
+    const ProgramResult drawn = run_program(arguments + " --align se3 --plot " + file("pictures"));
+    ASSERT_EQ(drawn.status, 0) << drawn.everything();
+    EXPECT_THAT(drawn.output, HasSubstr("pictures in " + file("pictures")));
+    for (const char* name : {"trajectory-above.png", "trajectory-above.svg", "error-over-time.pdf",
+                             "error-distribution_dark.png", "trajectory-error.png"}) {
+      EXPECT_TRUE(std::filesystem::exists(folder_ / "pictures" / name)) << name;
+    }
+  }
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ TEST(Preset, SaysWhatIsWrong) {
               HasSubstr("did you mean 'solver.huber_m'"));
   EXPECT_THAT(error_of({"floam", {}, {"solver.huber_m=-1"}}), HasSubstr("above 0"));
   EXPECT_THAT(error_of({"floam", {}, {"estimator=magic"}}),
-              HasSubstr("gins_two_frame, gins_window, localize_"));
+              HasSubstr("gins_two_frame, gins_window, imported_poses, localize_"));
   const TemporaryFolder folder;
   files::write_text(folder / "mine.yaml", "\nsolver:\n  huber_m: wide\n");
   EXPECT_THAT(error_of({"floam", {folder / "mine.yaml"}, {}}), HasSubstr("mine.yaml, line 3"));

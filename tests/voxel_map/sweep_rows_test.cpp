@@ -108,6 +108,31 @@ TEST(SweepRows, ACloudWithoutRingsIsCutIntoRowsByElevation) {
   }
 }
 
+TEST(SweepRows, OfSeveralLidarsEachLooksFromItsOwnPlace) {
+  sensors::LidarScan scan = stored_ring_after_ring(4);
+  auto profile = profile_of(sensors::RingSource::kData, 4);
+  profile.lidars_in_scan = {{0, {0, 0, 0}}, {2, {3, -1, 0.5}}};
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    scan.ring.push_back(static_cast<std::uint16_t>(i / 90));
+    if (i < 180) continue;
+    scan.x[i] += 3;
+    scan.y[i] -= 1;
+    scan.z[i] += 0.5F;
+  }
+  const SweepRows rows(scan, profile);
+  ASSERT_EQ(rows.count(), 4U);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Row row = rows.row(k);
+    EXPECT_EQ(row.lidar, k / 2);
+    for (std::size_t i = 0; i < row.size; ++i) {
+      EXPECT_NEAR(row.range[i], 10, 1e-5);
+      EXPECT_NEAR(row.x[i] + row.ox, scan.x[row.source_of(i)], 1e-5);
+      EXPECT_NEAR(row.y[i] + row.oy, scan.y[row.source_of(i)], 1e-5);
+      EXPECT_NEAR(row.z[i] + row.oz, scan.z[row.source_of(i)], 1e-5);
+    }
+  }
+}
+
 TEST(SweepRows, AnEmptyScanHasNone) { EXPECT_EQ(SweepRows(sensors::LidarScan{}, {}).count(), 0U); }
 
 }  // namespace

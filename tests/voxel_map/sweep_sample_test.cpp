@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "traverse/parallel/workers.hpp"
+#include "traverse/sensors/rings.hpp"
 #include "traverse/sensors/sweep_timing.hpp"
 #include "traverse/voxel_map/used_points.hpp"
 
@@ -109,6 +110,41 @@ TEST_F(SampleOfAStreet, CorrectsTheElevationOfWhatItKeeps) {
     EXPECT_NEAR(elevation(corrected.surface, i) - elevation(as_is.surface, i),
                 std::numbers::pi / 180, 1e-5);
   }
+}
+
+TEST_F(SampleOfAStreet, WhatOneLidarSeesDoesNotStandForWhatAnotherDoes) {
+  parallel::Workers workers(2);
+  sensors::LidarProfile both = profile();
+  const auto rings = static_cast<std::size_t>(both.rings);
+  ASSERT_GT(rings, 0U);
+  sensors::LidarScan scans = scan();
+  both.ring_source = sensors::RingSource::kData;
+  if (scans.ring.empty()) scans.ring = sensors::assign_rings(scan(), profile()).ring;
+  const SweepSample alone = sample_sweep(scans, both, {}, workers);
+  // The same once more, from a lidar that stands 2 m beside.
+  const std::size_t n = scans.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    scans.x.push_back(scans.x[i]);
+    scans.y.push_back(scans.y[i] + 2);
+    scans.z.push_back(scans.z[i]);
+    if (!scans.intensity.empty()) scans.intensity.push_back(scans.intensity[i]);
+    if (!scans.time.empty()) scans.time.push_back(scans.time[i]);
+    scans.ring.push_back(static_cast<std::uint16_t>(scans.ring[i] + rings));
+  }
+  both.rings *= 2;
+  both.lidars_in_scan = {{0, {0, 0, 0}}, {rings, {0, 2, 0}}};
+  const SweepSample two = sample_sweep(scans, both, {}, workers);
+  ASSERT_EQ(two.surface.size(), 2 * alone.surface.size());
+  ASSERT_EQ(two.edges.size(), 2 * alone.edges.size());
+  for (std::size_t i = 0; i < alone.edges.size(); ++i) {
+    const std::size_t k = alone.edges.size() + i;
+    EXPECT_NEAR(two.edges.x[k], alone.edges.x[i], 1e-4);
+    EXPECT_NEAR(two.edges.y[k], alone.edges.y[i] + 2, 1e-4);
+    EXPECT_NEAR(two.edges.range[k], alone.edges.range[i], 1e-4);
+  }
+  // Cubes of the one are not those of the other, so that they hold about as many, not the same.
+  EXPECT_GT(two.planar.size(), 1.9 * static_cast<double>(alone.planar.size()));
+  EXPECT_TRUE(std::equal(alone.planar.x.begin(), alone.planar.x.end(), two.planar.x.begin()));
 }
 
 }  // namespace

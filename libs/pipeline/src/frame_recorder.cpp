@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "traverse/pipeline/imported_poses.hpp"
+
 namespace traverse::pipeline {
 
 namespace {
@@ -90,7 +92,7 @@ class Columns {
 }  // namespace
 
 FrameRecorder::FrameRecorder(const std::filesystem::path& folder, const Estimator& estimator)
-    : estimator_(estimator), scratch_(folder) {
+    : estimator_(estimator), is_foreign_(estimator.foreign().has_value()), scratch_(folder) {
   const auto& columns = estimator.columns();
   const auto found = std::find(columns.begin(), columns.end(), "residual_rms_m");
   if (found != columns.end()) {
@@ -99,14 +101,15 @@ FrameRecorder::FrameRecorder(const std::filesystem::path& folder, const Estimato
 }
 
 bool FrameRecorder::wants(std::size_t pose, const PoseFrame& frame) const {
-  if (!residual_column_) return false;
+  // Of poses that another program made one of five is as good as another.
+  if (!residual_column_) return is_foreign_ && pose % kFramesTogether == kFramesTogether / 2;
   if (!pending_ || pose / kFramesTogether != pending_->pose / kFramesTogether) return true;
   return frame.record[*residual_column_] > pending_->residual_rms_m;
 }
 
 void FrameRecorder::add(std::size_t pose, const PoseFrame& frame, const UsedScan& used) {
   if (pending_ && pose / kFramesTogether != pending_->pose / kFramesTogether) keep_pending();
-  const double residual_rms_m = frame.record[*residual_column_];
+  const double residual_rms_m = residual_column_ ? frame.record[*residual_column_] : 0;
   const geometry::Pose3 T_body_map = frame.T_map_body.inverse();
 
   pending_values_.clear();

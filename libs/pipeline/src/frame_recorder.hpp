@@ -15,7 +15,7 @@
 namespace traverse::pipeline {
 
 /// Keeps how frames were registered, for pictures of the worst segments, which are known only at
-/// the end: of every five frames the one with the largest residuals, its scan and its matches
+/// the end; of poses that another program made the scans alone: of every five frames the one with the largest residuals, its scan and its matches
 /// thinned, in a file without a name. Memory holds one frame; disk about 30 kB for each of the run.
 class FrameRecorder {
  public:
@@ -52,6 +52,7 @@ class FrameRecorder {
 
   const Estimator& estimator_;
   std::optional<std::size_t> residual_column_;  ///< nothing: this estimator has no registration
+  bool is_foreign_;                             ///< its scans are kept all the same
   files::ScratchFile scratch_;
   std::vector<Entry> entries_;
   std::optional<Entry> pending_;  ///< the worst so far of the present five frames

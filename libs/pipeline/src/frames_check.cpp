@@ -63,17 +63,21 @@ class FramesCheck {
   FramesCheck(const FrameTable& frames, const RunFolder& folder)
       : frames_(frames), file_(folder.frames()) {}
 
-  void require_columns() const {
-    for (const char* name : {"frame", "stamp_s", "total_ms"}) require_column(name);
+  void require_columns(bool has_times) const {
+    for (const char* name : {"frame", "stamp_s"}) require_column(name);
+    if (has_times) require_column("total_ms");
     for (const auto& group : column_groups()) {
       if (!frames_.has(group.front())) continue;
       for (const std::string& name : group) require_column(name);
     }
     // Readers take frame and stamp for the first and the total for the last.
     const auto& columns = frames_.columns();
-    if (columns[0] == "frame" && columns[1] == "stamp_s" && columns.back() == "total_ms") return;
-    throw InputError(file_, Place::line(1), "the columns frame, stamp_s, ..., total_ms",
-                     "another order");
+    const bool ends_so = (columns.back() == "total_ms") == has_times;
+    if (columns[0] == "frame" && columns[1] == "stamp_s" && ends_so) return;
+    throw InputError(
+        file_, Place::line(1),
+        fmt::format("the columns frame, stamp_s, ...{}", has_times ? ", total_ms" : ""),
+        "another order");
   }
 
   void require_rows(std::size_t poses) const {
@@ -125,6 +129,7 @@ void require_record_of(const FrameTable& frames, const files::JsonValue& record)
   if (used.count() != frames.rows().size()) {
     throw used.error(fmt::format("the {} frames of frames.csv", frames.rows().size()));
   }
+  if (record["timing_ms"].is_null()) return;
   double total = 0;
   for (const double milliseconds : frames.column("total_ms")) total += milliseconds;
   const files::JsonValue stated = record["timing_ms"]["total"];
@@ -138,7 +143,7 @@ void require_record_of(const FrameTable& frames, const files::JsonValue& record)
 void require_frames(const FrameTable& frames, const geometry::Trajectory& estimate,
                     const files::JsonValue& record, const RunFolder& folder) {
   const FramesCheck check(frames, folder);
-  check.require_columns();
+  check.require_columns(!record["timing_ms"].is_null());
   check.require_rows(estimate.size());
   check.require_values("stamp_s", kSameStamp_s, "the stamp of the pose in trajectory.tum",
                        [&](std::size_t i) { return estimate.stamp(i).seconds(); });

@@ -11,4 +11,7 @@ void require_run_record(const files::JsonValue& record);
 /// Whether the run was assessed: older ones were not, and those without a frame cannot be.
 bool has_health(const files::JsonValue& record);
 
+/// Whether its poses were made by another program.
+bool is_foreign_run(const files::JsonValue& record);
+
 }  // namespace traverse::pipeline

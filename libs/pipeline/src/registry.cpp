@@ -16,6 +16,7 @@
 #include "traverse/pipeline/odometry_kind.hpp"
 #include "traverse/voxel_map/voxel_map_odometry.hpp"
 
+#include "imported_estimator.hpp"
 #include "lidar_estimator.hpp"
 #include "localizing_estimator.hpp"
 #include "navigation_estimator.hpp"
@@ -132,6 +133,16 @@ EstimatorKind navigation_kind() {
           }};
 }
 
+/// Poses that another program made.
+EstimatorKind imported_kind() {
+  return {[](const config::Document& document) { return list_settings(document, ImportOptions{}); },
+          [](const config::Document& document, const dataset::RecordingInfo& recording, int) {
+            ImportOptions options;
+            read_preset(document, options);
+            return std::make_unique<ImportedEstimator>(options, recording);
+          }};
+}
+
 using EstimatorKinds = std::map<std::string, EstimatorKind, std::less<>>;
 
 /// An odometry makes two kinds: itself, and itself followed in a map. \returns false if there is
@@ -145,7 +156,8 @@ bool add_odometry(const std::string& name, const OdometryKind& odometry, Estimat
 EstimatorKinds& estimator_kinds() {
   static EstimatorKinds all = [] {
     EstimatorKinds kinds{{"gins_two_frame", navigation_kind<inertial::TwoFrameOptions>()},
-                         {"gins_window", navigation_kind<inertial::SlidingWindowOptions>()}};
+                         {"gins_window", navigation_kind<inertial::SlidingWindowOptions>()},
+                         {"imported_poses", imported_kind()}};
     add_odometry("scan_to_map",
                  odometry_kind<loam::ScanToMapOdometry, loam::ScanToMapOdometryOptions>(), kinds);
     add_odometry("two_stage",

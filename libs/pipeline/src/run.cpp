@@ -233,6 +233,7 @@ RunHealth assess_run(const dataset::Source& source, const Estimator& estimator,
   evidence.read_records = readings.total();
   evidence.recording_first = readings.first();
   evidence.recording_last = readings.last();
+  evidence.is_foreign = estimator.foreign().has_value();
   return assess(evidence);
 }
 
@@ -338,6 +339,7 @@ RunRecord begin_record(const dataset::Source& source, const Pipeline& pipeline,
   record.estimator_kind = pipeline.estimator_kind;
   record.settings = pipeline.settings;
   record.threads = options.threads;
+  record.foreign = pipeline.estimator->foreign();
   record.statements = options.statements;
   record.is_private = options.is_private;
   record.recording = source.info();

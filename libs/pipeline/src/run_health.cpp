@@ -408,6 +408,7 @@ RunHealth assess(const HealthEvidence& evidence) {
   RunHealth health;
   const FrameEvidence frames = read_frame_evidence(evidence.frames, evidence.T_map_body);
   health.is_navigation = frames.is_navigation;
+  health.is_foreign = evidence.is_foreign;
   health.frames = evidence.T_map_body.size();
   health.registrable = frames.registrable;
   health.registered = frames.registered;

@@ -115,40 +115,60 @@ Contradiction contradiction_from(const JsonValue& json) {
           json["statement"].text()};
 }
 
+/// What an estimator knows of its frames.
+constexpr std::array<const char*, 6> kOfItsFrames{"registrable", "registered",  "lost",
+                                                  "degenerate",  "unsupported", "restarts"};
+
+void take_frames(const JsonValue& json, RunHealth& health) {
+  health.registrable = json["registrable"].count();
+  health.registered = json["registered"].count();
+  health.lost = spells_from(json["lost"]);
+  health.degenerate = spells_from(json["degenerate"]);
+  health.unsupported = json["unsupported"].count();
+  health.restarts = json["restarts"].count();
+  if (health.registered > health.registrable) {
+    throw json["registered"].error("at most as many as registrable");
+  }
+}
+
 }  // namespace
 
 nlohmann::ordered_json to_json(const RunHealth& health) {
-  return {{"verdict", name_of(health.verdict)},
-          {"reasons", list_json(health.reasons, reason_json)},
-          {"navigation", health.is_navigation},
-          {"frames", health.frames},
-          {"registrable", health.registrable},
-          {"registered", health.registered},
-          {"registered_share", optional(health.registered_share())},
-          {"located", optional(health.located)},
-          {"lost", spells_json(health.lost)},
-          {"degenerate", spells_json(health.degenerate)},
-          {"unsupported", health.unsupported},
-          {"restarts", health.restarts},
-          {"first_pose",
-           {{"after_s", optional(health.first_pose_after_s)},
-            {"share", optional(health.first_pose_share)}}},
-          {"covered_share", optional(health.covered_share)},
-          {"gaps",
-           {{"count", health.gaps.count},
-            {"usual_s", health.gaps.usual_s},
-            {"longest_s", health.gaps.longest_s},
-            {"after_frame", health.gaps.after_frame}}},
-          {"leaps",
-           {{"count", health.leaps.count},
-            {"largest_m", health.leaps.largest_m},
-            {"seconds", health.leaps.seconds},
-            {"frame", health.leaps.frame}}},
-          {"skipped_records", health.skipped_records},
-          {"skipped_share", health.skipped_share},
-          {"error_share", optional(health.error_share)},
-          {"sensors", list_json(health.sensors, sensor_json)},
-          {"contradictions", list_json(health.contradictions, contradiction_json)}};
+  Json json{{"verdict", name_of(health.verdict)},
+            {"reasons", list_json(health.reasons, reason_json)},
+            {"navigation", health.is_navigation},
+            {"frames", health.frames},
+            {"registrable", health.registrable},
+            {"registered", health.registered},
+            {"registered_share", optional(health.registered_share())},
+            {"located", optional(health.located)},
+            {"lost", spells_json(health.lost)},
+            {"degenerate", spells_json(health.degenerate)},
+            {"unsupported", health.unsupported},
+            {"restarts", health.restarts},
+            {"first_pose",
+             {{"after_s", optional(health.first_pose_after_s)},
+              {"share", optional(health.first_pose_share)}}},
+            {"covered_share", optional(health.covered_share)},
+            {"gaps",
+             {{"count", health.gaps.count},
+              {"usual_s", health.gaps.usual_s},
+              {"longest_s", health.gaps.longest_s},
+              {"after_frame", health.gaps.after_frame}}},
+            {"leaps",
+             {{"count", health.leaps.count},
+              {"largest_m", health.leaps.largest_m},
+              {"seconds", health.leaps.seconds},
+              {"frame", health.leaps.frame}}},
+            {"skipped_records", health.skipped_records},
+            {"skipped_share", health.skipped_share},
+            {"error_share", optional(health.error_share)},
+            {"sensors", list_json(health.sensors, sensor_json)},
+            {"contradictions", list_json(health.contradictions, contradiction_json)}};
+  if (!health.is_foreign) return json;
+  json["foreign"] = true;
+  for (const char* key : kOfItsFrames) json[key] = nullptr;
+  return json;
 }
 
 RunHealth health_from_json(const JsonValue& json) {
@@ -157,13 +177,9 @@ RunHealth health_from_json(const JsonValue& json) {
   health.reasons = list_from(json["reasons"], reason_from);
   health.is_navigation = json["navigation"].boolean();
   health.frames = json["frames"].count();
-  health.registrable = json["registrable"].count();
-  health.registered = json["registered"].count();
+  health.is_foreign = json.has("foreign") && json["foreign"].boolean();
+  if (!health.is_foreign) take_frames(json, health);
   if (!json["located"].is_null()) health.located = json["located"].count();
-  health.lost = spells_from(json["lost"]);
-  health.degenerate = spells_from(json["degenerate"]);
-  health.unsupported = json["unsupported"].count();
-  health.restarts = json["restarts"].count();
   const JsonValue first = json["first_pose"];
   if (!first["after_s"].is_null()) health.first_pose_after_s = first["after_s"].number();
   if (!first["share"].is_null()) health.first_pose_share = first["share"].number();
@@ -179,9 +195,6 @@ RunHealth health_from_json(const JsonValue& json) {
   health.error_share = optional_amount(json["error_share"]);
   health.sensors = list_from(json["sensors"], sensor_from);
   health.contradictions = list_from(json["contradictions"], contradiction_from);
-  if (health.registered > health.registrable) {
-    throw json["registered"].error("at most as many as registrable");
-  }
   return health;
 }
 

@@ -116,6 +116,15 @@ Json to_json(const std::vector<plausibility::Finding>& findings) {
   return list;
 }
 
+/// Of poses that another program made: what is known of that one's run.
+void set_foreign_cost(const ForeignTiming& foreign, Json& json) {
+  const auto known = [](const auto& value) { return value ? Json(*value) : Json(nullptr); };
+  if (foreign.frame_ms.empty()) json["timing_ms"] = nullptr;
+  json["threads"] = known(foreign.threads);
+  json["wall_seconds"] = known(foreign.wall_s);
+  json["peak_memory_mb"] = known(foreign.peak_memory_mb);
+}
+
 Json timing(const RunRecord& record) {
   Json stages = Json::array();
   for (const StageTiming& stage : record.stages) {
@@ -228,6 +237,7 @@ std::string to_json(const RunRecord& record, const BuildInfo& build, const HostI
   json["started_utc"] = record.started_utc;
   json["wall_seconds"] = record.wall_seconds;
   json["peak_memory_mb"] = record.peak_memory_mb;
+  if (record.foreign) set_foreign_cost(*record.foreign, json);
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "traverse/mapping/map_keyframe.hpp"
+#include "traverse/pipeline/imported_poses.hpp"
 #include "traverse/sensors/rings.hpp"
 #include "traverse/sensors/sweep_timing.hpp"
 
@@ -19,7 +20,8 @@ constexpr std::size_t kMostScoredScans = 500;
 std::vector<std::string> table_columns(const Estimator& estimator) {
   std::vector<std::string> columns{"frame", "stamp_s"};
   columns.insert(columns.end(), estimator.columns().begin(), estimator.columns().end());
-  columns.emplace_back("total_ms");
+  const auto foreign = estimator.foreign();
+  if (!foreign || !foreign->frame_ms.empty()) columns.emplace_back("total_ms");
   return columns;
 }
 
@@ -112,7 +114,7 @@ void RunResults::add_row(const PoseFrame& frame) {
   std::vector<double> row{static_cast<double>(first_frame_ + frames_.rows().size()),
                           frame.stamp.seconds()};
   row.insert(row.end(), frame.record.begin(), frame.record.end());
-  row.push_back(frame.milliseconds);
+  if (frames_.columns().back() == "total_ms") row.push_back(frame.milliseconds);
   frames_.add_row(std::move(row));
 }
 

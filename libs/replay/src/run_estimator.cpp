@@ -1,6 +1,7 @@
 #include "traverse/replay/run_estimator.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -60,6 +61,11 @@ bool is_of_localization(const std::string& setting) {
   return setting.starts_with("localize.") || setting.starts_with("slam.localize.");
 }
 
+/// Files that another program wrote: their poses are in the run folder.
+bool is_foreign_file(const std::string& setting) {
+  return setting == "poses.file" || setting == "poses.timing";
+}
+
 /// The twist that leads from each frame to the next, which scans were deskewed with but for the
 /// last digits: the run folder does not keep it.
 void fill_velocities(std::vector<PoseFrame>& frames) {
@@ -92,6 +98,7 @@ void add_settings(const files::JsonValue& record, RunFacts& facts) {
     if (!is_complete && !setting["changed"].boolean()) continue;
     // Where in a map the drive was is in its poses: the map itself may have gone elsewhere.
     if (is_of_localization(setting["key"].text())) continue;
+    if (is_foreign_file(setting["key"].text())) continue;
     assignments.push_back(setting["key"].text() + "=" + setting["value"].json_text());
   }
   if (is_complete) {
@@ -135,15 +142,18 @@ std::unique_ptr<pipeline::Estimator> make_run_estimator(
   const pipeline::FrameTable& table = contents.frames;
   const geometry::Trajectory& trajectory = contents.estimate;
   auto run = std::make_shared<RunFrames>();
-  // Frame and stamp come first and the total last: what is between is the estimator's record.
-  run->columns.assign(table.columns().begin() + 2, table.columns().end() - 1);
+  // Frame and stamp come first and the total last, if the times are known: what is between is the
+  // estimator's record.
+  const bool has_times = table.columns().back() == "total_ms";
+  const int totals = has_times ? 1 : 0;
+  run->columns.assign(table.columns().begin() + 2, table.columns().end() - totals);
   for (std::size_t i = 0; i < trajectory.size(); ++i) {
     const std::vector<double>& row = table.rows()[i];
     PoseFrame frame;
     frame.stamp = trajectory.stamp(i);
     frame.T_map_body = trajectory.pose(i);
-    frame.record.assign(row.begin() + 2, row.end() - 1);
-    frame.milliseconds = row.back();
+    frame.record.assign(row.begin() + 2, row.end() - totals);
+    frame.milliseconds = has_times ? row.back() : std::numeric_limits<double>::quiet_NaN();
     run->frames.push_back(std::move(frame));
   }
   fill_velocities(run->frames);

@@ -85,6 +85,17 @@ float window_mean(const float* middle, std::size_t reach) {
   return sum * (1.0F / (2 * kReach + 1));
 }
 
+/// The width that a pole usually has that `count` beams of a row hit, in steps between beams; two
+/// beams at least. A pole q steps wide is hit by n beams with the probability 1 - |q - n|, wherever
+/// it stands between them. Poles come in all widths at all distances, so that no q is likelier than
+/// another on a scale of ratios: the mean of q over dq / q is 1 / ((n + 1) ln((n + 1) / n) -
+/// (n - 1) ln(n / (n - 1))), which is n - 1 / (6 n) to 0.006. n whole steps would be the width
+/// of poles that mostly are narrower, and were found since one more beam just hit them.
+float usual_width(std::size_t count) {
+  const auto n = static_cast<float>(count);
+  return n - 1 / (6 * n);
+}
+
 /// Adds the chosen points to the surface: a planar one at the mean of its window.
 void place(const Row& row, std::size_t reach, const SamplingOptions& options, RowSamples& samples) {
   const float flatness = to_float(options.flatness_m);
@@ -281,13 +292,14 @@ void sample_edges(const Row& row, const std::vector<std::uint8_t>& breaks,
       const float share = 1 / static_cast<float>(count);
       mx *= share;
       my *= share;
-      // Half a step more on either side, as for other ends.
-      const float steps = static_cast<float>(count) / static_cast<float>(count - 1);
-      const float radius = 0.5F * steps * std::sqrt(dx * dx + dy * dy + dz * dz);
-      const float outward = 1 + pole_depth * radius / std::sqrt(mx * mx + my * my);
+      // Across the line of sight: between the returns themselves their ranges' noise would add to
+      // it.
+      const float flat = std::sqrt(mx * mx + my * my);
+      const float step = std::abs(dx * my - dy * mx) / flat / static_cast<float>(count - 1);
+      const float radius = 0.5F * usual_width(count) * step;
+      const float outward = 1 + pole_depth * radius / flat;
       samples.edges.push_back(outward * mx, outward * my, mz * share, range[first],
                               row.source_of((first + last) / 2));
-      const float step = 2 * radius / static_cast<float>(count);
       samples.edges.step_variance.push_back(kOfUniform * step * step);
       return;
     }

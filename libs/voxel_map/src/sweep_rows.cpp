@@ -86,7 +86,7 @@ float elevation_of(const sensors::LidarScan& scan, std::size_t i) {
 }  // namespace
 
 SweepRows::SweepRows(const sensors::LidarScan& scan, const sensors::LidarProfile& profile)
-    : scan_(scan) {
+    : scan_(scan), lidars_(profile.lidars_in_scan) {
   if (scan.empty()) return;
   const RangeCounts counts = measure_ranges(scan, profile, range_);
   dropped_.at_origin = counts.origin;
@@ -130,6 +130,7 @@ SweepRows::SweepRows(const sensors::LidarScan& scan, const sensors::LidarProfile
   std::vector<float> sorted_range(source_.size());
   for (std::size_t i = 0; i < source_.size(); ++i) sorted_range[i] = range_[source_[i]];
   range_ = std::move(sorted_range);
+  if (lidars_.size() > 1) look_from_own_lidars();
   if (!scan.time.empty()) {
     for (const std::uint32_t i : source_) time_.push_back(scan.time[i]);
   }
@@ -145,7 +146,33 @@ Row SweepRows::row(std::size_t k) const {
     return {at(scan_.x),    at(scan_.y), at(scan_.z), at(range_),
             at(scan_.time), nullptr,     begin,       size};
   }
-  return {at(x_), at(y_), at(z_), at(range_), at(time_), source_.data() + begin, begin, size};
+  Row row{at(x_), at(y_), at(z_), at(range_), at(time_), source_.data() + begin, begin, size};
+  if (lidars_.size() > 1) {
+    row.lidar = lidar_of(k);
+    const auto& origin = lidars_[row.lidar].origin_m;
+    row.ox = static_cast<float>(origin[0]);
+    row.oy = static_cast<float>(origin[1]);
+    row.oz = static_cast<float>(origin[2]);
+  }
+  return row;
+}
+
+std::size_t SweepRows::lidar_of(std::size_t ring) const {
+  std::size_t lidar = 0;
+  while (lidar + 1 < lidars_.size() && lidars_[lidar + 1].first_ring <= ring) ++lidar;
+  return lidar;
+}
+
+void SweepRows::look_from_own_lidars() {
+  for (std::size_t k = 0; k < count(); ++k) {
+    const Row here = row(k);
+    for (std::size_t i = row_begin_[k]; i < row_begin_[k + 1]; ++i) {
+      x_[i] -= here.ox;
+      y_[i] -= here.oy;
+      z_[i] -= here.oz;
+      range_[i] = std::sqrt(x_[i] * x_[i] + y_[i] * y_[i] + z_[i] * z_[i]);
+    }
+  }
 }
 
 std::vector<std::uint16_t> SweepRows::range_image_rows(const sensors::LidarProfile& profile) const {

@@ -77,7 +77,34 @@ void correct(const sensors::LidarProfile& profile, SweepPoints& points) {
                              profile.vertical_correction_deg * std::numbers::pi / 180);
 }
 
+/// Rows that one worker takes: of one lidar, in bit-reversed order.
+std::vector<std::vector<std::size_t>> chunks_of(const SweepRows& rows) {
+  std::vector<std::vector<std::size_t>> chunks;
+  for (std::size_t begin = 0; begin < rows.count();) {
+    const std::size_t lidar = rows.row(begin).lidar;
+    std::size_t end = begin + 1;
+    while (end < rows.count() && rows.row(end).lidar == lidar) ++end;
+    const std::vector<std::size_t> order = bit_reversed_order(end - begin);
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      if (k % kRowsInChunk == 0) chunks.emplace_back();
+      chunks.back().push_back(begin + order[k]);
+    }
+    begin = end;
+  }
+  return chunks;
+}
+
+/// Moves the points from the given one on.
+void move(const Row& row, std::size_t from, SweepPoints& points) {
+  for (std::size_t i = from; i < points.size(); ++i) {
+    points.x[i] += row.ox;
+    points.y[i] += row.oy;
+    points.z[i] += row.oz;
+  }
+}
+
 struct ChunkSample {
+  std::size_t lidar = 0;
   RowSamples samples;
   std::vector<std::uint32_t> first_of_cube;  // indices of samples.surface
 };
@@ -132,19 +159,24 @@ SweepSample sample_sweep(const sensors::LidarScan& scan, const sensors::LidarPro
   limited.edge_max_range_m = std::min(options.edge_max_range_m, profile.max_range_m);
   const auto nearest = static_cast<float>(profile.min_range_m);
   const auto pole_depth = static_cast<float>(profile.pole_depth);
-  const std::vector<std::size_t> order = bit_reversed_order(rows.count());
-  std::vector<ChunkSample> chunks((order.size() + kRowsInChunk - 1) / kRowsInChunk);
+  const std::vector<std::vector<std::size_t>> rows_of = chunks_of(rows);
+  std::vector<ChunkSample> chunks(rows_of.size());
   workers.run(chunks.size(), [&](std::size_t c) {
     ChunkSample& chunk = chunks[c];
     chunk.samples.reserve(kExpected);
     std::vector<std::uint8_t> breaks;
-    const std::size_t end = std::min(order.size(), (c + 1) * kRowsInChunk);
-    for (std::size_t k = c * kRowsInChunk; k < end; ++k) {
-      const Row row = rows.row(order[k]);
+    for (const std::size_t k : rows_of[c]) {
+      const Row row = rows.row(k);
+      chunk.lidar = row.lidar;
       if (row.size < kLeastRow) continue;
+      const std::size_t surfaces = chunk.samples.surface.size();
+      const std::size_t edges = chunk.samples.edges.size();
       find_breaks(row, limited, seam, breaks);
       sample_surfaces(row, breaks, limited, nearest, chunk.samples);
       sample_edges(row, breaks, limited, nearest, pole_depth, chunk.samples);
+      if (profile.lidars_in_scan.size() < 2) continue;
+      move(row, surfaces, chunk.samples.surface);
+      move(row, edges, chunk.samples.edges);
     }
     for (SweepPoints* points : {&chunk.samples.surface, &chunk.samples.edges}) {
       correct(profile, *points);
@@ -154,18 +186,22 @@ SweepSample sample_sweep(const sensors::LidarScan& scan, const sensors::LidarPro
         first_of_each_cube(chunk.samples.surface, chunk.samples.planar, limited.thinning_m);
   });
 
-  // A point that is not the first of its cube within its chunk is not the first of all.
+  // A point that is not the first of its cube within its chunk is not the first of all. What one
+  // lidar measures of a cube does not stand for what another does.
   SweepPoints candidates;
-  for (const ChunkSample& chunk : chunks) {
+  for (std::size_t c = 0; c < chunks.size(); ++c) {
+    const ChunkSample& chunk = chunks[c];
     sample.surface.append(chunk.samples.surface);
     sample.edges.append(chunk.samples.edges);
     sample.surface_is_planar.insert(sample.surface_is_planar.end(), chunk.samples.planar.begin(),
                                     chunk.samples.planar.end());
     for (const std::uint32_t i : chunk.first_of_cube) candidates.append(chunk.samples.surface, i);
-  }
-  const std::vector<std::uint8_t> all(candidates.size(), 1);
-  for (const std::uint32_t i : first_of_each_cube(candidates, all, limited.thinning_m)) {
-    sample.planar.append(candidates, i);
+    if (c + 1 < chunks.size() && chunks[c + 1].lidar == chunk.lidar) continue;
+    const std::vector<std::uint8_t> all(candidates.size(), 1);
+    for (const std::uint32_t i : first_of_each_cube(candidates, all, limited.thinning_m)) {
+      sample.planar.append(candidates, i);
+    }
+    candidates = {};
   }
   watch.lap(sample.features_ms);
   return sample;

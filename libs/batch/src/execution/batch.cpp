@@ -173,6 +173,10 @@ BatchEnd run_batch(Plan plan, const BatchFolder& folder, const BatchOptions& opt
   const RecordingDigests digests = digest_recordings(
       plan, folder, [&](const std::string& name) { observer.preparing("reading " + name); });
 
+  convert_recordings(plan, folder, digests, options.program, stop,
+                     [&](const std::string& name) { observer.preparing("converting " + name); });
+  if (stop) return {.stopped = true};
+
   Results results(make_jobs(plan, digests, program, options.share));
   write_jobs(folder.jobs(), results.jobs());
   results.load(folder, [&](const Completion& completion) {

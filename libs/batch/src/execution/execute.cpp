@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <glob.h>
 
 #include "traverse/batch/metric.hpp"
 #include "traverse/files/atomic_file.hpp"
@@ -133,6 +134,8 @@ void judge(const Job& job, const ProcessEnd& end, const RunStatus& status, bool 
     if (completion.attempts > 1) {
       completion.reason += fmt::format(", {} attempts", completion.attempts);
     }
+  } else if (!completion.reason.empty()) {
+    completion.outcome = Outcome::kFailed;  // a command that ended without what it is to write
   } else if (end.exit_status != 0) {
     completion.outcome = status.status == "lost" ? Outcome::kLost : Outcome::kFailed;
     completion.reason = status.status == "lost" ? status.reason : message;
@@ -239,8 +242,86 @@ std::optional<std::int64_t> maker_of(std::string_view name) {
   return files::parse_integer(name.substr(ours.size()));
 }
 
-}  // namespace
+/// In the environment of the programs that are not ours: the folder of their run.
+constexpr std::string_view kWorkOf = "TRAVERSE_BATCH_WORK=";
 
+/// Ends what a program that is not ours started and left behind, or was started by a batch that was
+/// killed: processes that have the run's folder in their environment, which no other run has.
+void end_programs_of(const fs::path& work) {
+  const std::string mark = std::string(kWorkOf) + work.string();
+  std::error_code failure;
+  for (const auto& entry : fs::directory_iterator("/proc", failure)) {
+    const auto pid = files::parse_integer(entry.path().filename().string());
+    if (!pid || *pid == ::getpid()) continue;
+    std::ifstream stream(entry.path() / "environ", std::ios::binary);
+    for (std::string variable; std::getline(stream, variable, '\0');) {
+      if (variable != mark) continue;
+      ::kill(static_cast<pid_t>(*pid), SIGKILL);
+      break;
+    }
+  }
+}
+
+/// What a program that is not ours has written, of the pattern that the plan names. \returns
+/// nothing, and in `reason` why, unless it is one
+std::optional<fs::path> find_trajectory(const fs::path& folder, const std::string& pattern,
+                                        std::string& reason) {
+  glob_t found{};
+  const std::string full = (fs::path(pattern).is_absolute() ? fs::path(pattern) : folder / pattern);
+  const int failure = ::glob(full.c_str(), 0, nullptr, &found);
+  std::vector<fs::path> files;
+  for (std::size_t i = 0; failure == 0 && i < found.gl_pathc; ++i) {
+    files.emplace_back(found.gl_pathv[i]);
+  }
+  ::globfree(&found);
+  if (files.size() == 1) return files.front();
+  reason = fmt::format("the command ended, but expected one trajectory {}, found {}", pattern,
+                       files.empty() ? std::string("none") : fmt::format("{}", files.size()));
+  return std::nullopt;
+}
+
+/// A shell tells by its exit status that a program which it started was ended by a signal.
+void take_signal_of_shell(ProcessEnd& end) {
+  constexpr int kMostSignals = 64;
+  const int signal = end.exit_status - kSignalled;
+  if (end.cause != Cause::kItself || signal < 1 || signal > kMostSignals) return;
+  end.signal = signal;
+  end.exit_status = 0;
+}
+
+/// Runs a program that is not ours, measured from outside, and then takes over what it wrote, which
+/// is not part of what it is measured by.
+ProcessEnd run_command(const Job& job, const ExecutionContext& context, const fs::path& work,
+                       ProcessStart start, std::string& reason) {
+  const fs::path folder = work / kCommandFolder;
+  fs::create_directory(folder);
+  ProcessStart command = start;
+  command.program = "/usr/bin/env";
+  command.folder = folder;
+  command.is_group = true;
+  command.arguments = {std::string(kWorkOf) + work.string(),
+                       fmt::format("OMP_NUM_THREADS={}", job.limits.threads), "/bin/sh", "-c",
+                       job.command};
+  ProcessEnd end = run_process(command, context.stop);
+  end_programs_of(work);
+  take_signal_of_shell(end);
+  if (end.cause != Cause::kItself || end.signal != 0 || end.exit_status != 0) return end;
+  const auto trajectory = find_trajectory(folder, job.trajectory, reason);
+  if (!trajectory) return end;
+  files::write_text(work / kCommandCost,
+                    fmt::format("threads: {}\nwall_s: {}\npeak_memory_mb: {}\n", job.limits.threads,
+                                end.wall_s, end.peak_memory_mb));
+  std::replace(start.arguments.begin(), start.arguments.end(), std::string(Job::kTrajectory),
+               trajectory->string());
+  start.appends = true;
+  ProcessEnd taken = run_process(start, context.stop);
+  taken.wall_s = end.wall_s;
+  taken.cpu_s = end.cpu_s;
+  taken.peak_memory_mb = end.peak_memory_mb;
+  return taken;
+}
+
+}  // namespace
 fs::path log_in_work(const BatchFolder& folder, const Job& job) {
   return work_folder(folder, job) / "log.txt";
 }
@@ -262,7 +343,10 @@ std::optional<Completion> execute(const Job& job, const ExecutionContext& contex
     start.memory_limit_mb = job.limits.memory_mb;
     start.started = [&](int pid) { context.journal.started(job, pid, attempt); };
     const long kills_before = out_of_memory_kills();
-    const ProcessEnd end = run_process(start, context.stop);
+    completion.reason.clear();
+    const ProcessEnd end = job.command.empty()
+                               ? run_process(start, context.stop)
+                               : run_command(job, context, work, start, completion.reason);
     if (end.cause == Cause::kStopped || (context.stop && end.signal != 0)) {
       std::error_code ignored;
       fs::remove_all(work, ignored);
@@ -298,7 +382,9 @@ void remove_abandoned(const BatchFolder& folder) {
     const auto pid = maker_of(entry.path().filename().string());
     if (!pid) continue;
     const bool alive = *pid != ::getpid() && ::kill(static_cast<pid_t>(*pid), 0) == 0;
-    if (!alive) fs::remove_all(entry.path(), failure);
+    if (alive) continue;
+    end_programs_of(entry.path());
+    fs::remove_all(entry.path(), failure);
   }
 }
 

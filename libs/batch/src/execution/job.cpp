@@ -1,6 +1,7 @@
 #include "traverse/batch/job.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <set>
 #include <utility>
 
@@ -37,6 +38,12 @@ struct Variant {
 
 Variant resolve(const PlannedPipeline& pipeline, std::vector<std::string> point,
                 const std::filesystem::path& share_folder) {
+  if (pipeline.command) {
+    const std::string text =
+        fmt::format("{}\n{}\n{}", pipeline.command.identity, fmt::join(pipeline.assignments, "\n"),
+                    fmt::join(point, "\n"));
+    return {pipeline, std::move(point), "command", files::sha256_of_text(text)};
+  }
   pipeline::PresetRequest request{pipeline.preset, pipeline.config_files, pipeline.assignments};
   request.assignments.insert(request.assignments.end(), point.begin(), point.end());
   try {
@@ -58,17 +65,50 @@ std::vector<std::string> statements_about(const PlannedRecording& recording,
   return statements;
 }
 
-std::vector<std::string> run_arguments(const Plan& plan, const PlannedRecording& recording,
-                                       const Variant& variant) {
-  // The run works inside its own folder, so that its command holds wherever that is moved to.
-  std::vector<std::string> words{"run", recording.path.string(), "-o", kRunOutput};
-  const auto add = [&](const char* option, const std::string& value) {
-    words.insert(words.end(), {option, value});
-  };
+using AddWords = std::function<void(const char* option, const std::string& value)>;
+
+/// How the poses of a command are taken over.
+void add_import(const PlannedPipeline& pipeline, const AddWords& add,
+                std::vector<std::string>& words) {
+  const PlannedCommand& command = pipeline.command;
+  add("--name", pipeline.name);
+  add("--format", command.format);
+  if (!command.columns.empty()) add("--columns", command.columns);
+  if (!command.topic.empty()) add("--topic", command.topic);
+  add("--frame", command.frame);
+  if (!command.extrinsic.empty()) {
+    // With "=": the first number may be negative.
+    words.push_back(fmt::format("--extrinsic={}", fmt::join(command.extrinsic, ",")));
+  }
+  if (!command.time_offset.empty()) words.push_back("--time-offset=" + command.time_offset);
+  add("--max-gap", fmt::format("{}", command.max_gap_s));
+  if (!command.deskew) words.emplace_back("--no-deskew");
+  add("--timing", kCommandCost);
+}
+
+void add_preset(const Variant& variant, const AddWords& add) {
   add("--pipeline", variant.pipeline.preset);
   for (const auto& file : variant.pipeline.config_files) add("--config", file.string());
   for (const std::string& assignment : variant.pipeline.assignments) add("--set", assignment);
   for (const std::string& assignment : variant.settings) add("--set", assignment);
+}
+
+std::vector<std::string> run_arguments(const Plan& plan, const PlannedRecording& recording,
+                                       const Variant& variant) {
+  const bool is_command = static_cast<bool>(variant.pipeline.command);
+  // The run works inside its own folder, so that its command holds wherever that is moved to.
+  std::vector<std::string> words{"run", recording.path.string(), "-o", kRunOutput};
+  if (is_command) {
+    words = {"import", Job::kTrajectory, "--recording", recording.path.string(), "-o", kRunOutput};
+  }
+  const auto add = [&](const char* option, const std::string& value) {
+    words.insert(words.end(), {option, value});
+  };
+  if (is_command) {
+    add_import(variant.pipeline, add, words);
+  } else {
+    add_preset(variant, add);
+  }
   if (!recording.statements_file.empty()) {
     add("--recording-config", recording.statements_file.string());
   }
@@ -79,7 +119,7 @@ std::vector<std::string> run_arguments(const Plan& plan, const PlannedRecording&
   if (!recording.reference_frame.empty()) add("--reference-frame", recording.reference_frame);
   if (recording.first > 0) add("--first", std::to_string(recording.first));
   if (recording.last >= 0) add("--last", std::to_string(recording.last));
-  add("--threads", std::to_string(plan.limits.threads));
+  if (!is_command) add("--threads", std::to_string(plan.limits.threads));
   words.emplace_back("--no-hash");  // the batch has digested each recording, once
   if (!plan.reports) words.emplace_back("--no-report");
   if (plan.is_private) words.emplace_back(kPrivate);
@@ -99,18 +139,36 @@ std::string identity_of(const Plan& plan, const PlannedRecording& recording,
   return text + fmt::format("repeat {}\n", repeat);
 }
 
+/// What is started first, for a program that is not ours.
+void add_command(const Plan& plan, const PlannedRecording& recording, const Variant& variant,
+                 Job& job) {
+  CommandPlaces places;
+  places.recording = recording.path;
+  places.converted = recording.converted;
+  places.plan_folder = plan.file.parent_path();
+  places.threads = plan.limits.threads;
+  places.settings = variant.pipeline.assignments;
+  places.settings.insert(places.settings.end(), variant.settings.begin(), variant.settings.end());
+  job.command = expanded(variant.pipeline.command, places);
+  job.trajectory = variant.pipeline.command.trajectory;
+}
+
 json to_json(const Job& job) {
-  return {{"id", job.id},
-          {"identity", job.identity},
-          {"recording", job.recording},
-          {"pipeline", job.pipeline},
-          {"settings", job.settings},
-          {"repeat", job.repeat},
-          {"arguments", job.arguments},
-          {"time_s", job.limits.time_s},
-          {"memory_mb", job.limits.memory_mb},
-          {"threads", job.limits.threads},
-          {"attempts", job.limits.attempts}};
+  json line{{"id", job.id},
+            {"identity", job.identity},
+            {"recording", job.recording},
+            {"pipeline", job.pipeline},
+            {"settings", job.settings},
+            {"repeat", job.repeat},
+            {"arguments", job.arguments},
+            {"time_s", job.limits.time_s},
+            {"memory_mb", job.limits.memory_mb},
+            {"threads", job.limits.threads},
+            {"attempts", job.limits.attempts}};
+  if (job.command.empty()) return line;
+  line["command"] = job.command;
+  line["trajectory"] = job.trajectory;
+  return line;
 }
 
 Job job_of(const files::JsonValue& line) {
@@ -126,6 +184,9 @@ Job job_of(const files::JsonValue& line) {
   job.limits.memory_mb = line["memory_mb"].number();
   job.limits.threads = line["threads"].small_integer();
   job.limits.attempts = line["attempts"].small_integer();
+  if (!line.has("command")) return job;
+  job.command = line["command"].text();
+  job.trajectory = line["trajectory"].text();
   return job;
 }
 
@@ -167,6 +228,7 @@ std::vector<Job> make_jobs(const Plan& plan, const RecordingDigests& recordings,
         job.repeat = repeat;
         job.arguments = run_arguments(plan, recording, variant);
         job.limits = plan.limits;
+        if (variant.pipeline.command) add_command(plan, recording, variant, job);
         jobs.push_back(std::move(job));
       }
     }

@@ -6,4 +6,9 @@ namespace traverse::batch {
 /// folder in which something is.
 inline constexpr const char* kRunOutput = "run";
 
+/// Where a program that is not ours works, in the same folder; and what its run cost, as
+/// `traverse import --timing` reads it.
+inline constexpr const char* kCommandFolder = "system";
+inline constexpr const char* kCommandCost = "system.yaml";
+
 }  // namespace traverse::batch

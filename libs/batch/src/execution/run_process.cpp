@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 #include <fcntl.h>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <poll.h>
@@ -28,7 +29,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using EndCause = ProcessEnd::Cause;
 
-constexpr int kLookEvery_ms = 50;
+constexpr int kLookEvery_ms = 50;  // at the beginning more often: short runs have memory too
 constexpr int kCannotStart = 127;  // as shells say it
 
 [[noreturn]] void fail(const char* what) {
@@ -81,6 +82,19 @@ double memory_mb(pid_t pid, std::string_view which) {
   return 0;
 }
 
+/// The memory that all processes of a group hold together.
+double group_memory_mb(pid_t group) {
+  double sum = 0;
+  std::error_code failure;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc", failure)) {
+    const std::string name = entry.path().filename().string();
+    if (name.empty() || name.find_first_not_of("0123456789") != std::string::npos) continue;
+    const auto pid = static_cast<pid_t>(std::stol(name));
+    if (::getpgid(pid) == group) sum += memory_mb(pid, "VmRSS:");
+  }
+  return sum;
+}
+
 /// Waits until the new process, which alone holds the other end, has become its program.
 void wait_for_program(int pipe) {
   char nothing = 0;
@@ -99,7 +113,8 @@ ProcessEnd run_process(const ProcessStart& start, const std::atomic<bool>& stop)
   for (const std::string& word : start.arguments) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
   const Descriptor log(
-      ::open(start.log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666),
+      ::open(start.log.c_str(),
+             O_WRONLY | O_CREAT | (start.appends ? 0 : O_TRUNC) | O_APPEND | O_CLOEXEC, 0666),
       start.log.c_str());
 
   const auto began = Clock::now();
@@ -129,14 +144,18 @@ ProcessEnd run_process(const ProcessStart& start, const std::atomic<bool>& stop)
     ::kill(-pid, SIGKILL);
   };
   pollfd ended{handle.number(), POLLIN, 0};
-  while (::poll(&ended, 1, kLookEvery_ms) <= 0) {
+  int look_after_ms = 1;
+  while (::poll(&ended, 1, look_after_ms) <= 0) {
+    look_after_ms = std::min(2 * look_after_ms, kLookEvery_ms);
     if (end.cause != EndCause::kItself) continue;  // it is dying
-    end.peak_memory_mb = std::max(end.peak_memory_mb, memory_mb(pid, "VmHWM:"));
+    const double now_mb = start.is_group ? group_memory_mb(pid) : memory_mb(pid, "VmRSS:");
+    end.peak_memory_mb =
+        std::max(end.peak_memory_mb, start.is_group ? now_mb : memory_mb(pid, "VmHWM:"));
     if (stop) {
       end_it(EndCause::kStopped);
     } else if (start.time_limit_s > 0 && elapsed() > start.time_limit_s) {
       end_it(EndCause::kTimeLimit);
-    } else if (start.memory_limit_mb > 0 && memory_mb(pid, "VmRSS:") > start.memory_limit_mb) {
+    } else if (start.memory_limit_mb > 0 && now_mb > start.memory_limit_mb) {
       end_it(EndCause::kMemoryLimit);
     }
   }
@@ -151,7 +170,10 @@ ProcessEnd run_process(const ProcessStart& start, const std::atomic<bool>& stop)
   // this one. Above that it is the program's, and exact; else it is a bound, if nothing was seen.
   const double counted_mb = static_cast<double>(usage.ru_maxrss) / 1024;
   const bool counted_is_programs = counted_mb > memory_mb(parent, "VmHWM:");
-  if (counted_is_programs || end.peak_memory_mb == 0) end.peak_memory_mb = counted_mb;
+  // Of a group it is that of the largest process alone.
+  const bool is_more = !start.is_group || counted_mb > end.peak_memory_mb;
+  if ((counted_is_programs && is_more) || end.peak_memory_mb == 0) end.peak_memory_mb = counted_mb;
+  if (start.is_group) ::kill(-pid, SIGKILL);
   if (WIFEXITED(status)) end.exit_status = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
   if (end.cause == EndCause::kItself && start.memory_limit_mb > 0 && counted_is_programs &&

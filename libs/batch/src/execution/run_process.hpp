@@ -16,6 +16,10 @@ struct ProcessStart {
   std::filesystem::path log;           ///< takes its standard output and its messages
   double time_limit_s = 0;             ///< 0: none
   double memory_limit_mb = 0;          ///< resident; 0: none
+  bool appends = false;                ///< to the log, which is begun anew otherwise
+  /// Its memory is that of all processes of its group together, and nothing of the group outlives
+  /// it: of programs that start others.
+  bool is_group = false;
   std::function<void(int pid)> started = [](int) {};
 };
 

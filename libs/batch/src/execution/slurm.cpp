@@ -80,6 +80,11 @@ std::vector<std::string> submission(const Plan& plan, const ExecutionContext& co
                                     const fs::path& list, std::size_t tasks,
                                     std::size_t runs_per_task) {
   const fs::path logs = fs::path(list).replace_extension("");
+  // A program that is not ours, and then what it wrote is taken over: each may take as long.
+  const bool has_commands =
+      std::any_of(plan.pipelines.begin(), plan.pipelines.end(),
+                  [](const PlannedPipeline& pipeline) { return static_cast<bool>(pipeline.command); });
+  const double steps = has_commands ? 2 : 1;
   std::vector<std::string> words{
       "sbatch",
       "--parsable",
@@ -90,7 +95,7 @@ std::vector<std::string> submission(const Plan& plan, const ExecutionContext& co
       fmt::format("--output={}/%a.log", logs.string()),
       fmt::format("--cpus-per-task={}", plan.limits.threads),
       fmt::format("--time={:.0f}", std::ceil(static_cast<double>(runs_per_task) *
-                                             (plan.limits.time_s + kMargin_s) / 60))};
+                                             (steps * plan.limits.time_s + kMargin_s) / 60))};
   if (plan.limits.memory_mb > 0) {
     words.push_back(fmt::format("--mem={:.0f}M", plan.limits.memory_mb + kMargin_mb));
   }

@@ -13,6 +13,7 @@
 #include "traverse/files/input_error.hpp"
 #include "traverse/pipeline/registry.hpp"
 
+#include "plan/plan_commands.hpp"
 #include "plan/plan_error.hpp"
 #include "plan/plan_parts.hpp"
 
@@ -130,15 +131,23 @@ std::vector<PlannedPipeline> read_pipelines(const Document& plan, const fs::path
   const std::vector<GridAxis> common_grid = read_grid(plan.child("grid"));
   std::vector<PlannedPipeline> pipelines;
   std::map<std::string, Origin> names;
-  for (const Document& item : plan.items("pipelines", "preset")) {
-    PlannedPipeline pipeline = read_entry(item, common_grid, folder);
+  for (Document& entry : plan.items("pipelines", "preset")) {
+    const Document item =
+        entry.has("system") ? with_recipe(std::move(entry), share_folder) : std::move(entry);
+    const bool is_command = item.has("command");
+    PlannedPipeline pipeline =
+        is_command ? read_command(item, folder) : read_entry(item, common_grid, folder);
     const auto [other, is_new] = names.emplace(pipeline.name, pipeline.origin);
     if (!is_new) {
       throw plan_error(pipeline.origin, "names that are there once (give it a 'name')",
                        fmt::format("{} again (first: line {})", files::in_quotes(pipeline.name),
                                    other->second.line));
     }
-    check_settings(pipeline, share_folder, notes);
+    if (is_command) {
+      for (const auto& point : grid_points(pipeline.grid)) check_command(pipeline, point);
+    } else {
+      check_settings(pipeline, share_folder, notes);
+    }
     pipelines.push_back(std::move(pipeline));
   }
   if (pipelines.empty()) {

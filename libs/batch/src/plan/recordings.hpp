@@ -20,6 +20,13 @@ void make_recordings(Plan& plan, const BatchFolder& folder, const std::filesyste
                      const std::string& program_id, const std::atomic<bool>& stop,
                      const std::function<void(const std::string& name)>& making);
 
+/// Makes what commands read of the plan's recordings ({format:NAME}) below OUT/recordings, unless
+/// it is there: files are named by the recordings' digests. \param converting told "NAME to FORMAT"
+/// before each \throws files::InputError with the plan's line if `traverse convert` fails
+void convert_recordings(Plan& plan, const BatchFolder& folder, const RecordingDigests& digests,
+                        const std::filesystem::path& program, const std::atomic<bool>& stop,
+                        const std::function<void(const std::string& name)>& converting);
+
 /// The digest of what each recording of the plan is: every file of its folder, or the file with
 /// those that share its name (drive.rawlog, drive.traverse.yaml, drive.reference.tum,
 /// drive_Images/), its statements file and its reference.

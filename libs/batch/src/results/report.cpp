@@ -16,6 +16,7 @@
 #include "traverse/pipeline/privacy.hpp"
 #include "traverse/pipeline/provenance.hpp"
 
+#include "results/ranking.hpp"
 #include "results/report_data.hpp"
 
 namespace traverse::batch {
@@ -110,6 +111,22 @@ void add_baseline_notice(const BaselineComparison& baseline, Data& list) {
   add_notice(list, regressed > 0 ? "fail" : "good", "Against the baseline", text);
 }
 
+/// ": drive, floam: APE 0.31 to 0.36 m"
+std::string spread_words(const RepeatCheck& repeats, const std::string& metric) {
+  constexpr std::size_t kMostNamed = 5;
+  const Metric* shown = find_metric(metric);
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMostNamed, repeats.spreads.size()); ++i) {
+    const RepeatCheck::Spread& spread = repeats.spreads[i];
+    text += fmt::format("{} {}: {} {} to {} {}", i == 0 ? ":" : ";", spread.title, shown->title,
+                        short_number(spread.least), short_number(spread.most), shown->unit);
+  }
+  if (repeats.spreads.size() > kMostNamed) {
+    text += fmt::format("; and {} more", repeats.spreads.size() - kMostNamed);
+  }
+  return text;
+}
+
 Data notices(const ReportData& data, const Counts& counts) {
   Data list = Data::list();
   const std::size_t rows = data.results.jobs().size();
@@ -139,11 +156,12 @@ Data notices(const ReportData& data, const Counts& counts) {
                            fmt::join(parts, ", ")));
   }
   if (data.baseline) add_baseline_notice(*data.baseline, list);
-  const RepeatCheck repeats = check_repeats(data.results);
+  const std::string& rank_by = data.plan.metrics.front();
+  const RepeatCheck repeats = check_repeats(data.results, rank_by);
   if (repeats.different > 0) {
     add_notice(list, "warn", "Repeats differ",
-               fmt::format("{} of {} gave other trajectories when repeated.", repeats.different,
-                           plural(repeats.groups, "combination")));
+               fmt::format("{} of {} gave other trajectories when repeated{}.", repeats.different,
+                           plural(repeats.groups, "combination"), spread_words(repeats, rank_by)));
   } else if (repeats.groups > 0) {
     add_notice(list, "good", "Repeats",
                fmt::format("all {} gave the same trajectory, bit for bit, on every repeat.",
@@ -227,6 +245,7 @@ std::vector<page::Section> sections(const ReportData& data, const Counts& counts
   const bool has_grid = std::any_of(data.variants.begin(), data.variants.end(),
                                     [](const auto& variant) { return !variant.settings.empty(); });
   std::vector<page::Section> sections{{"verdict", "Verdict"}, {"leaderboard", "Leaderboard"}};
+  if (data.variants.size() > 1) sections.push_back({"ranking", "Ranking"});
   if (!data.tables.empty()) sections.push_back({"tables", "Tables"});
   if (data.baseline) sections.push_back({"baseline", "Against the baseline"});
   sections.push_back({"recordings", "Recordings and pipelines"});
@@ -242,6 +261,7 @@ std::vector<page::Section> sections(const ReportData& data, const Counts& counts
 
 std::string batch_page(const ReportData& data, const std::filesystem::path& templates) {
   const Counts counts = count(data);
+  const auto ranking = rank_variants(data.results, data.plan.metrics.front());
   const pipeline::Privacy privacy(data.plan.file.parent_path());
   const auto told = [&](const std::string& text) {
     return data.plan.is_private ? privacy.text(text) : text;
@@ -258,6 +278,12 @@ std::string batch_page(const ReportData& data, const std::filesystem::path& temp
   parts.set("rank_title", find_metric(data.plan.metrics.front())->title);
   const page::Table leads = leads_table(data.leads);
   parts.set("table_leads", leads.empty() ? Data(false) : leads.data());
+  parts.set("table_ranking", ranking ? ranking_table(*ranking).data() : Data(false));
+  parts.set("table_fairness", fairness_table(data.plan, data.results).data());
+  parts.set("limits",
+            fmt::format("Each run had {} and at most {:g} s.",
+                        plural(static_cast<std::size_t>(data.plan.limits.threads), "thread"),
+                        data.plan.limits.time_s));
   if (data.baseline) {
     parts.set("baseline_source", told(data.baseline->source));
     parts.set("baseline_rule", kBaselineRule);
@@ -273,7 +299,7 @@ std::string batch_page(const ReportData& data, const std::filesystem::path& temp
   page.title = name + " · batch";
   page.program_version = pipeline::build_info().version;
   page.sections = sections(data, counts);
-  page.report_json = page::text_for_script(report_data_json(data));
+  page.report_json = page::text_for_script(report_data_json(data, ranking));
   page.scripts = {"dygraphs", "plot", "tables", "batch_tables", "batch_charts"};
   page.styles = {"batch"};
   return page::render(page, std::move(parts), templates);

@@ -104,6 +104,19 @@ Json runs_json(const ReportData& data) {
   return list;
 }
 
+/// Accuracy and time of each, for the chart of both.
+Json ranking_json(const Ranking& ranking) {
+  Json list = Json::array();
+  for (const RankedVariant& one : ranking.variants) {
+    if (!one.mean || !one.wall_s) continue;
+    list.push_back({{"name", one.variant},
+                    {"value", *one.mean},
+                    {"wall_s", *one.wall_s},
+                    {"front", one.is_on_front}});
+  }
+  return list;
+}
+
 Json baseline_json(const BaselineComparison& baseline, const Plan& plan) {
   Json ok = Json::array();
   for (const OkChange& change : baseline.ok) {
@@ -135,7 +148,7 @@ Json baseline_json(const BaselineComparison& baseline, const Plan& plan) {
 
 }  // namespace
 
-std::string report_data_json(const ReportData& data) {
+std::string report_data_json(const ReportData& data, const std::optional<Ranking>& ranking) {
   Json json{{"metrics", metrics_json(data.plan)}};
   for (const PlannedRecording& recording : data.plan.recordings) {
     json["recordings"].push_back(recording.name);
@@ -150,6 +163,7 @@ std::string report_data_json(const ReportData& data) {
     json["budgets"].push_back({{"metric", budget.metric}, {"most", budget.most}});
   }
   json["runs"] = runs_json(data);
+  json["ranking"] = ranking ? ranking_json(*ranking) : Json(nullptr);
   json["baseline"] = data.baseline ? baseline_json(*data.baseline, data.plan) : Json(nullptr);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

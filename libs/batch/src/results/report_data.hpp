@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "results/ranking.hpp"
 #include "results/report.hpp"
 
 namespace traverse::batch {
@@ -20,8 +21,9 @@ namespace traverse::batch {
 ///             metric], "folder": null | PATH, "report"}],        in the order of the plan
 ///   "baseline": null | {"ok": [{"variant", "runs", "before", "now", "verdict"}],
 ///                       "changes": [{"variant", "metric": index, "recordings", "before", "now",
-///                                    "percent", "interval": null | [low, high], "verdict"}]}
+///                                    "percent", "interval": null | [low, high], "verdict"}]},
+///   "ranking": null | [{"name", "value": of the first metric, "wall_s", "front"}]
 /// }
-std::string report_data_json(const ReportData& data);
+std::string report_data_json(const ReportData& data, const std::optional<Ranking>& ranking);
 
 }  // namespace traverse::batch

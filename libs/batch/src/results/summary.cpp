@@ -102,18 +102,29 @@ std::vector<VariantSummary> summarise(const Results& results, const std::vector<
   return variants;
 }
 
-RepeatCheck check_repeats(const Results& results) {
-  std::map<std::pair<std::string, std::string>, std::vector<std::string>> groups;
+RepeatCheck check_repeats(const Results& results, const std::string& metric) {
+  struct Repeats {
+    std::vector<std::string> digests;
+    std::vector<double> values;
+  };
+  std::map<std::pair<std::string, std::string>, Repeats> groups;
   for (const Job& job : results.jobs()) {
     const Completion* completion = results.find(job);
     if (completion == nullptr || !is_usable(completion->outcome)) continue;
-    groups[{job.recording, job.variant()}].push_back(completion->trajectory_sha256);
+    Repeats& repeats = groups[{job.recording, job.variant()}];
+    repeats.digests.push_back(completion->trajectory_sha256);
+    if (const auto value = value_of(*completion, metric)) repeats.values.push_back(*value);
   }
   RepeatCheck check;
-  for (const auto& [group, digests] : groups) {
+  for (const auto& [group, repeats] : groups) {
+    const auto& digests = repeats.digests;
     if (digests.size() < 2) continue;
     ++check.groups;
-    if (std::set<std::string>(digests.begin(), digests.end()).size() > 1) ++check.different;
+    if (std::set<std::string>(digests.begin(), digests.end()).size() == 1) continue;
+    ++check.different;
+    if (repeats.values.size() < 2) continue;
+    const auto [least, most] = std::minmax_element(repeats.values.begin(), repeats.values.end());
+    check.spreads.push_back({group.first + ", " + group.second, *least, *most});
   }
   return check;
 }

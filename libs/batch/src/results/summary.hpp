@@ -40,6 +40,13 @@ struct VariantSummary {
 struct RepeatCheck {
   std::size_t groups = 0;     ///< combinations with at least two finished repeats
   std::size_t different = 0;  ///< of them, those whose trajectories differ
+  /// Of those that differ, by how much; in the order of their names.
+  struct Spread {
+    std::string title;  ///< "drive_0001, floam"
+    double least = 0;   ///< of the metric that was asked for, over the repeats
+    double most = 0;
+  };
+  std::vector<Spread> spreads = {};
 };
 
 /// One summary a variant, best first: more runs that are usable, then fewer that are degraded, then
@@ -48,7 +55,8 @@ struct RepeatCheck {
 std::vector<VariantSummary> summarise(const Results& results, const std::vector<Budget>& budgets,
                                       const std::string& rank_by);
 
-RepeatCheck check_repeats(const Results& results);
+/// \param metric whose spread is told
+RepeatCheck check_repeats(const Results& results, const std::string& metric);
 
 /// The leaderboard with the given metrics and both KITTI averages.
 page::Table leaderboard(const std::vector<VariantSummary>& variants,

@@ -179,6 +179,8 @@ class LidarsAsOne final : public Source {
       largest_m = std::max(largest_m, part.profile.max_range_m);
       lever_m = std::max(lever_m, part.T_first_lidar.translation.norm());
       sweep_s_ = std::max(sweep_s_, part.profile.sweep_s);
+      const Eigen::Vector3d& origin = part.T_first_lidar.translation;
+      profile.lidars_in_scan.push_back({part.first_ring, {origin.x(), origin.y(), origin.z()}});
     }
     profile.name = names;
     profile.rings = static_cast<int>(parts_.back().first_ring + rings_of(parts_.back().profile));

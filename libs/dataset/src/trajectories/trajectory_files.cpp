@@ -12,13 +12,17 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "traverse/bags/message_container.hpp"
 #include "traverse/dataset/trajectory_streams.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/numbers.hpp"
 #include "traverse/files/text_file.hpp"
 
-#include "trajectories/quaternion_order.hpp"
+#include "trajectories/g2o_poses.hpp"
+#include "trajectories/named_columns.hpp"
+#include "trajectories/pose_sequence.hpp"
+#include "trajectories/pose_topics.hpp"
 
 namespace traverse::dataset {
 
@@ -50,10 +54,6 @@ bool is_rotation(const Eigen::Matrix3d& R) {
 /// numbers in the file and nothing else.
 using WideQuaternion = Eigen::Quaternion<long double>;
 
-Eigen::Matrix3d rotation_of(const Eigen::Quaterniond& q) {
-  return q.cast<long double>().normalized().toRotationMatrix().cast<double>();
-}
-
 Eigen::Quaterniond quaternion_of(const Eigen::Matrix3d& R) {
   WideQuaternion q(R.cast<long double>().eval());
   q.normalize();
@@ -61,73 +61,10 @@ Eigen::Quaterniond quaternion_of(const Eigen::Matrix3d& R) {
   return q.cast<double>();
 }
 
-double finite_number(const LineReader& reader, std::string_view word) {
-  const auto number = files::parse_double(word);
-  if (!number || !std::isfinite(*number)) {
-    throw reader.error("a finite number", files::in_quotes(word));
-  }
-  return *number;
-}
-
 Eigen::Vector3d position(const LineReader& reader, const Words& words, std::size_t first) {
   return {finite_number(reader, words[first]), finite_number(reader, words[first + 1]),
           finite_number(reader, words[first + 2])};
 }
-
-/// Hands the poses of a file with quaternions on; looks at their lengths, at the order of their
-/// columns and at that of the stamps.
-class PosesInOrder {
- public:
-  PosesInOrder(const PoseTaker& take, bool is_w_first) : take_(take), is_w_first_(is_w_first) {}
-
-  /// \param columns of the quaternion, as they stand in the file
-  void add(const LineReader& reader, Stamp stamp, const Eigen::Vector3d& t,
-           const Eigen::Vector4d& columns) {
-    if (last_ && stamp < *last_) {
-      throw reader.error(fmt::format("a stamp not before the last one, {}", to_text(*last_)),
-                         to_text(stamp));
-    }
-    last_ = stamp;
-    require_length(reader, columns.norm());
-    order_.add(t, columns);
-    const Eigen::Quaterniond q =
-        is_w_first_ ? Eigen::Quaterniond(columns[0], columns[1], columns[2], columns[3])
-                    : Eigen::Quaterniond(columns[3], columns[0], columns[1], columns[2]);
-    take_(stamp, {rotation_of(q), t});
-  }
-
-  std::vector<std::string> notes() const {
-    std::vector<std::string> list;
-    if (normalised_ > 0) {
-      list.push_back(fmt::format("{} quaternion{} of length {:.4g} to {:.4g} {} normalised",
-                                 normalised_, normalised_ == 1 ? "" : "s", shortest_, longest_,
-                                 normalised_ == 1 ? "was" : "were"));
-    }
-    if (auto hint = order_.hint(is_w_first_)) list.push_back(std::move(*hint));
-    return list;
-  }
-
- private:
-  void require_length(const LineReader& reader, double length) {
-    constexpr double kMostOff = 0.1;
-    constexpr double kRounding = 2e-3;  // of files with three decimals
-    if (!(std::abs(length - 1) <= kMostOff)) {
-      throw reader.error("a quaternion of length 1", fmt::format("one of length {:.4g}", length));
-    }
-    if (std::abs(length - 1) <= kRounding) return;
-    shortest_ = normalised_ == 0 ? length : std::min(shortest_, length);
-    longest_ = normalised_ == 0 ? length : std::max(longest_, length);
-    ++normalised_;
-  }
-
-  const PoseTaker& take_;
-  bool is_w_first_;
-  std::optional<Stamp> last_;
-  QuaternionOrder order_;
-  std::size_t normalised_ = 0;
-  double shortest_ = 1;
-  double longest_ = 1;
-};
 
 /// `time` and what it means if it is a Unix time in `units` other than the one expected.
 std::string time_found(std::string_view time, std::string_view instead) {
@@ -226,7 +163,12 @@ std::vector<std::size_t> read_kitti(LineReader& reader, const PoseTaker& take) {
   return frame_numbers;
 }
 
-void read_as(const std::filesystem::path& file, const PoseTaker& take, TrajectoryReading& reading) {
+void read_as(const std::filesystem::path& file, const TrajectoryChoice& choice,
+             const PoseTaker& take, TrajectoryReading& reading) {
+  if (reading.format == TrajectoryFormat::kBag) {
+    read_pose_topic(file, choice.topic, take, reading);
+    return;
+  }
   LineReader reader(file);
   switch (reading.format) {
     case TrajectoryFormat::kTum:
@@ -238,6 +180,13 @@ void read_as(const std::filesystem::path& file, const PoseTaker& take, Trajector
     case TrajectoryFormat::kEuroc:
       reading.notes = read_euroc(reader, take);
       break;
+    case TrajectoryFormat::kCsv:
+      read_named_columns(reader, choice.columns, take, reading);
+      break;
+    case TrajectoryFormat::kG2o:
+      read_g2o(reader, take, reading);
+      break;
+    case TrajectoryFormat::kBag:
     case TrajectoryFormat::kAuto:
       break;
   }
@@ -245,6 +194,12 @@ void read_as(const std::filesystem::path& file, const PoseTaker& take, Trajector
 
 /// The format of a file by its first line with data, and what in it says so.
 TrajectoryReading detect(const std::filesystem::path& file) {
+  if (std::filesystem::is_directory(file)) {
+    return {TrajectoryFormat::kBag, "a folder", {}, {}};
+  }
+  if (bags::is_ros1_bag(file) || bags::is_mcap(file) || bags::is_sqlite(file)) {
+    return {TrajectoryFormat::kBag, "its first bytes are a bag's", {}, {}};
+  }
   LineReader reader(file);
   if (!reader.next()) {
     throw files::InputError(file, files::Place::whole_file(), "at least one pose", "none");
@@ -252,6 +207,10 @@ TrajectoryReading detect(const std::filesystem::path& file) {
   const auto as = [](TrajectoryFormat format, std::string reason) {
     return TrajectoryReading{format, std::move(reason), {}, {}};
   };
+  if (is_g2o(reader.line())) return as(TrajectoryFormat::kG2o, "lines that begin with a word");
+  if (names_columns(reader.line())) {
+    return as(TrajectoryFormat::kCsv, "a header that names the columns");
+  }
   if (reader.line().find(',') != std::string::npos) {
     return as(TrajectoryFormat::kEuroc, "commas between the columns");
   }
@@ -262,8 +221,9 @@ TrajectoryReading detect(const std::filesystem::path& file) {
     return as(TrajectoryFormat::kKitti, "12 columns after a frame number");
   }
   throw reader.error(
-      "a pose with 8 columns (TUM), 12 columns or 13 with a frame number (KITTI), or commas "
-      "(EuRoC)");
+      "a pose with 8 columns (TUM), 12 columns or 13 with a frame number (KITTI), commas "
+      "(EuRoC), a header with x, y, z, qx, qy, qz, qw among its names (CSV), VERTEX_SE3:QUAT (g2o) "
+      "or a bag");
 }
 
 void require_poses(const Trajectory& trajectory) {
@@ -295,10 +255,13 @@ std::string_view name_of(TrajectoryFormat format) {
 }
 
 std::string describe(const TrajectoryReading& reading) {
-  constexpr std::array<std::pair<TrajectoryFormat, std::string_view>, 3> kTitles{
+  constexpr std::array<std::pair<TrajectoryFormat, std::string_view>, 6> kTitles{
       {{TrajectoryFormat::kTum, "TUM"},
        {TrajectoryFormat::kKitti, "KITTI"},
-       {TrajectoryFormat::kEuroc, "EuRoC"}}};
+       {TrajectoryFormat::kEuroc, "EuRoC"},
+       {TrajectoryFormat::kCsv, "CSV"},
+       {TrajectoryFormat::kG2o, "g2o"},
+       {TrajectoryFormat::kBag, "bag"}}};
   for (const auto& [format, title] : kTitles) {
     if (format == reading.format) return fmt::format("{}, {}", title, reading.reason);
   }
@@ -311,14 +274,26 @@ TrajectoryFormat detect_trajectory_format(const std::filesystem::path& file) {
 
 TrajectoryReading read_poses(const std::filesystem::path& file, TrajectoryFormat format,
                              const PoseTaker& take) {
+  return read_poses(file, TrajectoryChoice{format}, take);
+}
+
+TrajectoryReading read_poses(const std::filesystem::path& file, const TrajectoryChoice& choice,
+                             const PoseTaker& take) {
+  const TrajectoryFormat format = choice.format;
   TrajectoryReading reading{format, "as asked for", {}, {}};
-  if (format == TrajectoryFormat::kAuto) reading = detect(file);
+  if (format == TrajectoryFormat::kAuto && !choice.columns.empty()) {
+    reading = {TrajectoryFormat::kCsv, "its columns are named", {}, {}};
+  } else if (format == TrajectoryFormat::kAuto && !choice.topic.empty()) {
+    reading = {TrajectoryFormat::kBag, "a topic is named", {}, {}};
+  } else if (format == TrajectoryFormat::kAuto) {
+    reading = detect(file);
+  }
   bool any = false;
   const auto take_any = [&](const std::optional<Stamp>& stamp, const Pose3& pose) {
     any = true;
     take(stamp, pose);
   };
-  read_as(file, take_any, reading);
+  read_as(file, choice, take_any, reading);
   if (format == TrajectoryFormat::kKitti && !reading.frame_numbers.empty()) {
     reading.reason += ", with frame numbers";
   }
@@ -328,10 +303,15 @@ TrajectoryReading read_poses(const std::filesystem::path& file, TrajectoryFormat
 
 Trajectory read_trajectory(const std::filesystem::path& file, TrajectoryFormat format,
                            TrajectoryReading* reading) {
+  return read_trajectory(file, TrajectoryChoice{format}, reading);
+}
+
+Trajectory read_trajectory(const std::filesystem::path& file, const TrajectoryChoice& choice,
+                           TrajectoryReading* reading) {
   std::vector<Stamp> stamps;
   std::vector<Pose3> poses;
   TrajectoryReading how =
-      read_poses(file, format, [&](const std::optional<Stamp>& stamp, const Pose3& pose) {
+      read_poses(file, choice, [&](const std::optional<Stamp>& stamp, const Pose3& pose) {
         if (stamp) stamps.push_back(*stamp);
         poses.push_back(pose);
       });

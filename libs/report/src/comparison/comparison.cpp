@@ -159,7 +159,8 @@ Table settings_table(const std::vector<ComparedRun>& runs) {
   for (const ComparedRun& run : runs) {
     auto& values = settings.emplace_back();
     values["pipeline"] = run.data.pipeline_name();
-    values["threads"] = run.data.record.at("threads").dump();
+    const auto& threads = run.data.record.at("threads");
+    values["threads"] = threads.is_null() ? "not known" : threads.dump();
     for (const auto& setting : run.data.record.at("configuration").at("settings")) {
       const auto& value = setting.at("value");
       values[setting.at("key")] = value.is_string() ? value.get<std::string>() : value.dump();

@@ -143,7 +143,8 @@ void add_outages(const RunData& run, std::vector<RunFigure>& figures) {
       errors, evaluation::Figure::kRmse));
 }
 
-void add_health(const RunData& run, std::vector<RunFigure>& figures) {
+/// What an estimator tells of its frames: nothing is known of another program's.
+void add_registration(const RunData& run, std::vector<RunFigure>& figures) {
   const std::string exact = "a count, exact";
   if (const auto share = run.health.registered_share()) {
     figures.push_back(figure("registered_share", *share,
@@ -157,14 +158,17 @@ void add_health(const RunData& run, std::vector<RunFigure>& figures) {
                            "frames that could not be registered, after the first", exact));
   figures.push_back(figure("degenerate_frames", static_cast<double>(run.health.degenerate.frames),
                            "frames with a direction of motion that is not determined", exact));
+}
+
+void add_health(const RunData& run, std::vector<RunFigure>& figures) {
+  const std::string exact = "a count, exact";
+  if (!run.health.is_foreign) add_registration(run, figures);
   figures.push_back(figure("skipped_records", static_cast<double>(skipped_records(run.record)),
                            "records that could not be used", exact));
 }
 
-void add_cost(const RunData& run, std::vector<RunFigure>& figures) {
-  const auto& timing = run.record.at("timing_ms");
-  const std::string on = plural(run.record.at("threads"), "thread");
-  const std::string single = "one measurement of this run";
+void add_frame_times(const RunData& run, const nlohmann::json& timing, const std::string& on,
+                     const std::string& single, std::vector<RunFigure>& figures) {
   figures.push_back(
       figure_of_values("frame_median_ms", timing.at("frame_median"),
                        fmt::format("median, {} at 95 %, {}; quantiles linear between ranks",
@@ -173,10 +177,21 @@ void add_cost(const RunData& run, std::vector<RunFigure>& figures) {
   figures.push_back(figure("frame_p95_ms", timing.at("frame_p95"),
                            "95th percentile, linear between ranks, " + on, single));
   figures.push_back(figure("frame_max_ms", timing.at("frame_max"), "the slowest, " + on, single));
-  figures.push_back(
-      figure("wall_seconds", run.record.at("wall_seconds"), "the whole run, " + on, single));
-  figures.push_back(
-      figure("peak_memory_mb", run.record.at("peak_memory_mb"), "of the whole run", single));
+}
+
+void add_cost(const RunData& run, std::vector<RunFigure>& figures) {
+  const auto& timing = run.record.at("timing_ms");
+  const auto& threads = run.record.at("threads");
+  const std::string on = threads.is_null() ? "threads not known" : plural(threads, "thread");
+  const std::string single =
+      run.health.is_foreign ? "told by who ran the other program" : "one measurement of this run";
+  if (!timing.is_null()) add_frame_times(run, timing, on, single, figures);
+  if (const auto& wall_s = run.record.at("wall_seconds"); !wall_s.is_null()) {
+    figures.push_back(figure("wall_seconds", wall_s, "the whole run, " + on, single));
+  }
+  if (const auto& peak_mb = run.record.at("peak_memory_mb"); !peak_mb.is_null()) {
+    figures.push_back(figure("peak_memory_mb", peak_mb, "of the whole run", single));
+  }
 }
 
 }  // namespace

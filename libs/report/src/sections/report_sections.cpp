@@ -20,6 +20,11 @@ namespace {
 
 bool always(const RunData& /*run*/) { return true; }
 
+/// What an estimator tells of its frames; of another program's poses it is not known.
+bool tells_health(const RunData& run) { return !run.health.is_foreign; }
+
+bool tells_times(const RunData& run) { return !run.record.at("timing_ms").is_null(); }
+
 bool has_comparison(const RunData& run) { return run.evaluation.comparison.has_value(); }
 
 void fill_verdict(const ReportInput& input, Model& model) {
@@ -58,9 +63,9 @@ constexpr std::array<ReportSection, 12> kReportSections{{
        add_worst_segment_figures(input.run, input.worst, maker);
      }},
     {"map", "Map", always, fill_from_run<add_map_sharpness>, draw_from_run<add_map_figures>},
-    {"health", "Health", always, fill_from_run<add_health>, draw_from_run<add_health_figures>,
+    {"health", "Health", tells_health, fill_from_run<add_health>, draw_from_run<add_health_figures>,
      add_health_charts},
-    {"timing", "Timing", always, fill_from_run<add_timing>, draw_from_run<add_timing_figures>,
+    {"timing", "Timing", tells_times, fill_from_run<add_timing>, draw_from_run<add_timing_figures>,
      add_timing_charts},
     {"factors", "Factors", has_factors, fill_from_run<add_factors>},
     {"configuration", "Configuration", always, fill_from_run<add_configuration>},

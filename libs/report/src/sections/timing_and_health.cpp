@@ -99,6 +99,11 @@ void add_health(const RunData& run, Model& model) {
 
 void add_timing(const RunData& run, Model& model) {
   model.add_table(timing_table(run));
+  if (run.health.is_foreign) {
+    model.add_text("timing_how",
+                   "As told by who ran the program that made the poses; not measured here.");
+    return;
+  }
   model.add_text(
       "timing_how",
       fmt::format("Wall time of the estimator on {}; reading the recording, maps and "

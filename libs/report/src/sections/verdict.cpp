@@ -70,8 +70,9 @@ std::string sentence(const RunData& run, const std::vector<RunFigure>& figures) 
   if (health.verdict == Health::kLost) return "Lost: " + health.reasons.front().text;
   std::vector<std::string> parts;
   add_accuracy_words(run, figures, parts);
-  parts.push_back(
-      fmt::format("{} ms per frame", short_number(find_figure(figures, "frame_median_ms")->value)));
+  if (const auto* median = find_figure(figures, "frame_median_ms")) {
+    parts.push_back(fmt::format("{} ms per frame", short_number(median->value)));
+  }
   parts.push_back(skipped_words(run));
   const std::string figures_text = fmt::format("{}.", fmt::join(parts, "; "));
   if (health.verdict == Health::kOk) return figures_text;
@@ -200,6 +201,20 @@ void add_smaller_notices(const RunData& run, std::vector<Notice>& list) {
   }
 }
 
+/// Of a run against which nothing speaks.
+std::string health_words(const RunData& run) {
+  if (run.health.is_foreign) {
+    return "no leap of the path, no record was skipped, no gap in time; how the other program "
+           "found "
+           "its poses is not known.";
+  }
+  return is_navigation(run.frames)
+             ? "no sensor was rejected, nothing was begun again, no record was skipped, no gap in "
+               "time."
+             : "every frame was registered, no direction was degenerate, no record was skipped, no "
+               "gap in time.";
+}
+
 std::vector<Notice> notices(const RunData& run) {
   std::vector<Notice> list;
   add_end_notices(run, list);
@@ -208,12 +223,8 @@ std::vector<Notice> notices(const RunData& run) {
   add_accepted(run, list);
   add_smaller_notices(run, list);
   if (list.empty()) {
-    list.push_back({"good", "Healthy",
-                    is_navigation(run.frames)
-                        ? "no sensor was rejected, nothing was begun again, no record was skipped, "
-                          "no gap in time."
-                        : "every frame was registered, no direction was degenerate, no record was "
-                          "skipped, no gap in time."});
+    list.push_back(
+        {"good", run.health.is_foreign ? "Nothing against it" : "Healthy", health_words(run)});
   }
   return list;
 }

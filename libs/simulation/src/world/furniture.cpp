@@ -81,8 +81,8 @@ Mesh make_lorry() {
 
 Mesh make_lamp_post(double height) {
   Mesh mesh;
-  mesh.add_tube({0, 0, -0.5}, {0, 0, 1}, 0.11, 0.1, 8, Material::kMetal);
-  mesh.add_tube({0, 0, 1}, {0, 0, height}, 0.08, 0.05, 8, Material::kMetal);
+  mesh.add_tube({0, 0, -0.5}, {0, 0, 1}, 0.11, 0.1, kRound, Material::kMetal);
+  mesh.add_tube({0, 0, 1}, {0, 0, height}, 0.08, 0.05, kRound, Material::kMetal);
   mesh.add_tube({0, 0, height}, {0, 1.4, height + 0.3}, 0.04, 0.04, 6, Material::kMetal);
   mesh.add_box(upright({0, 1.6, height + 0.22}, 0), {0.25, 0.6, 0.12}, Material::kMetal);
   return mesh;
@@ -92,14 +92,14 @@ Mesh make_sign(Random& random) {
   Mesh mesh;
   const double height = random.uniform(2.2, 2.6);
   const double size = random.uniform(0.5, 0.8);
-  mesh.add_tube({0, 0, -0.5}, {0, 0, height + size}, 0.035, 0.035, 6, Material::kMetal);
+  mesh.add_tube({0, 0, -0.5}, {0, 0, height + size}, 0.035, 0.035, kRound, Material::kMetal);
   mesh.add_box(upright({0.05, 0, height}, 0), {0.02, size, size}, Material::kSign);
   return mesh;
 }
 
 Mesh make_traffic_light() {
   Mesh mesh;
-  mesh.add_tube({0, 0, -0.5}, {0, 0, 3.4}, 0.07, 0.06, 8, Material::kMetal);
+  mesh.add_tube({0, 0, -0.5}, {0, 0, 3.4}, 0.07, 0.06, kRound, Material::kMetal);
   mesh.add_box(upright({0.15, 0, 2.4}, 0), {0.22, 0.3, 0.95}, Material::kMetal);
   return mesh;
 }
@@ -116,8 +116,8 @@ Mesh make_bench() {
 
 Mesh make_bin() {
   Mesh mesh;
-  mesh.add_tube({0, 0, -0.1}, {0, 0, 0.9}, 0.22, 0.26, 10, Material::kMetal);
-  mesh.add_disc({0, 0, 0.9}, Vector3d::UnitZ(), 0.26, 10, Material::kMetal);
+  mesh.add_tube({0, 0, -0.1}, {0, 0, 0.9}, 0.22, 0.26, kRound, Material::kMetal);
+  mesh.add_disc({0, 0, 0.9}, Vector3d::UnitZ(), 0.26, kRound, Material::kMetal);
   return mesh;
 }
 
@@ -127,7 +127,7 @@ Mesh make_bus_shelter() {
   mesh.add_box(upright({0, 0, 2.35}, 0), {1.6, 4.2, 0.12}, Material::kMetal);
   for (const double y : {-2.0, 2.0}) {
     mesh.add_box(upright({0, y, -0.2}, 0), {1.3, 0.06, 2.5}, Material::kGlass);
-    mesh.add_tube({-0.7, y, -0.2}, {-0.7, y, 2.35}, 0.05, 0.05, 6, Material::kMetal);
+    mesh.add_tube({-0.7, y, -0.2}, {-0.7, y, 2.35}, 0.05, 0.05, kRound, Material::kMetal);
   }
   mesh.add_box(upright({-0.35, 0, 0.45}, 0), {0.35, 3, 0.05}, Material::kWood);
   return mesh;

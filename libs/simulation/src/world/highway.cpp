@@ -46,7 +46,7 @@ void add_overpass(Site& site, const Street::Station& at, double half_width) {
   for (const double y : {-half_width - 3, 0.0, half_width + 3}) {
     for (const double x : {-3.0, 0.0, 3.0}) {
       site.mesh.add_tube(T * Eigen::Vector3d(x, y, -1), T * Eigen::Vector3d(x, y, 5.4), 0.5, 0.5,
-                         12, Material::kConcrete);
+                         kRound, Material::kConcrete);
     }
   }
 }

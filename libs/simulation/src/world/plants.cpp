@@ -44,7 +44,7 @@ Mesh make_tree(double height, Random& random) {
   const double aside = random.uniform(-0.2, 0.2);
   const double ahead = random.uniform(-0.2, 0.2);
   const Vector3d fork(ahead, aside, trunk);
-  mesh.add_tube({0, 0, -0.5}, fork, radius, 0.75 * radius, 8, Material::kBark);
+  mesh.add_tube({0, 0, -0.5}, fork, radius, 0.75 * radius, kRound, Material::kBark);
   const int branches = 5 + static_cast<int>(random.below(3));
   for (int i = 0; i < branches; ++i) {
     const double angle = 2 * std::numbers::pi * (i + random.uniform(0, 0.6)) / branches;
@@ -62,7 +62,7 @@ Mesh make_tree(double height, Random& random) {
 
 Mesh make_conifer(double height, Random& random) {
   Mesh mesh;
-  mesh.add_tube({0, 0, -0.5}, {0, 0, height}, 0.015 * height, 0.02, 7, Material::kBark);
+  mesh.add_tube({0, 0, -0.5}, {0, 0, height}, 0.015 * height, 0.02, kRound, Material::kBark);
   for (int i = 0; i < 900; ++i) {
     const double share = std::sqrt(random.uniform(0, 1));  // from the tip down
     const double angle = random.uniform(0, 2 * std::numbers::pi);

@@ -19,7 +19,13 @@ struct Job {
   std::vector<std::string> settings;   ///< "solver.huber_m=0.2", of the grid only
   int repeat = 1;                      ///< counted from 1
   std::vector<std::string> arguments;  ///< of the program: "run", RECORDING, ...; output is "run"
+  /// Of a program that is not ours, for /bin/sh: it is started first, in a folder of its own, and
+  /// what it writes (`trajectory`) takes the place of kTrajectory in `arguments`. Empty: a preset.
+  std::string command = {};
+  std::string trajectory = {};  ///< path or pattern
   RunLimits limits;
+
+  static constexpr const char* kTrajectory = "{trajectory}";
 
   /// Whether what comes of it must not tell whose machine made it.
   bool is_private() const;

@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "traverse/batch/planned_command.hpp"
 #include "traverse/batch/planned_table.hpp"
 #include "traverse/config/document.hpp"
 
@@ -43,6 +45,8 @@ struct PlannedRecording {
   std::int64_t last = -1;              ///< included; -1: to the end
   std::vector<std::string> pipelines;  ///< that it goes through, by name; empty: all
   config::Origin origin;
+  /// What commands read of it, by the format: made by `traverse convert`.
+  std::map<std::string, std::filesystem::path> converted = {};
 
   bool takes(const std::string& pipeline) const {
     return pipelines.empty() ||
@@ -58,8 +62,9 @@ struct GridAxis {
 };
 
 struct PlannedPipeline {
-  std::string name;    ///< once in the plan
-  std::string preset;  ///< of share/pipelines, or the absolute path of a YAML file
+  std::string name;        ///< once in the plan
+  PlannedCommand command;  ///< a program that is not ours; then there is no preset
+  std::string preset;      ///< of share/pipelines, or the absolute path of a YAML file
   std::vector<std::filesystem::path> config_files;
   std::vector<std::string> assignments;  ///< "solver.huber_m=0.2"
   std::vector<std::string> statements;   ///< about each recording, over the recording's own

@@ -11,7 +11,7 @@
 
 #include "traverse/geometry/trajectory.hpp"
 
-/// Trajectories as text files, in the three forms that the field exchanges.
+/// Trajectories as files, in the forms that the field exchanges.
 ///
 /// TUM    `t x y z qx qy qz qw`, seconds and metres, blanks between
 /// KITTI  the twelve numbers of the upper 3x4 of T_map_body, row after row; no stamps. A frame
@@ -20,6 +20,11 @@
 /// EuRoC  `t,x,y,z,qw,qx,qy,qz`, whole nanoseconds (also as 1.7e+18), commas between; further
 ///        columns are allowed
 ///
+/// CSV    a header that names the columns, or names that are given; commas, semicolons or blanks
+/// g2o    the lines `VERTEX_SE3:QUAT id x y z qx qy qz qw`, in the order of their ids
+/// bag    a topic of poses in a ROS 1 bag, a ROS 2 bag or MCAP: Odometry, PoseStamped,
+///        PoseWithCovarianceStamped, TransformStamped, Path (the last one)
+///
 /// '#' begins a comment line. A file that is written and read back has the same stamps to the
 /// nanosecond and the same positions to the bit, KITTI files also the same rotation. Where a
 /// quaternion stands in the file, a matrix R comes back as the rotation nearest to it:
@@ -27,17 +32,30 @@
 /// within 2.3e-16 (one unit in the last place of 1).
 namespace traverse::dataset {
 
-enum class TrajectoryFormat { kAuto, kTum, kKitti, kEuroc };
+enum class TrajectoryFormat { kAuto, kTum, kKitti, kEuroc, kCsv, kG2o, kBag };
 
 /// The names that the command line uses.
-inline constexpr std::array<std::pair<std::string_view, TrajectoryFormat>, 4>
+inline constexpr std::array<std::pair<std::string_view, TrajectoryFormat>, 7>
     kTrajectoryFormatNames{{{"auto", TrajectoryFormat::kAuto},
                             {"tum", TrajectoryFormat::kTum},
                             {"kitti", TrajectoryFormat::kKitti},
-                            {"euroc", TrajectoryFormat::kEuroc}}};
+                            {"euroc", TrajectoryFormat::kEuroc},
+                            {"csv", TrajectoryFormat::kCsv},
+                            {"g2o", TrajectoryFormat::kG2o},
+                            {"bag", TrajectoryFormat::kBag}}};
 
-/// "auto", "tum", "kitti", "euroc".
+/// "auto", "tum", "kitti", "euroc", "csv", "g2o", "bag".
 std::string_view name_of(TrajectoryFormat format);
+
+/// How a trajectory is to be read.
+struct TrajectoryChoice {
+  TrajectoryFormat format = TrajectoryFormat::kAuto;
+  /// Of CSV files: what the columns are, one after the other ("t,x,y,z,qx,qy,qz,qw", `_` for
+  /// others), or which of the header's names they are ("t=when,x=east"). Empty: the header tells.
+  /// Times are seconds; t_ms, t_us and t_ns are others.
+  std::string columns = {};
+  std::string topic = {};  ///< of bags; empty: the only one with poses
+};
 
 /// As what a file of a trajectory was read.
 struct TrajectoryReading {
@@ -46,14 +64,15 @@ struct TrajectoryReading {
   /// What a reader may want to know: quaternions that had to be normalised, their columns perhaps
   /// in another order. Whole sentences without a full stop.
   std::vector<std::string> notes;
-  /// Of KITTI files that have them; they grow.
+  /// Of KITTI files that have them, and the ids of g2o; they grow.
   std::vector<std::size_t> frame_numbers;
 };
 /// "TUM, 8 columns between blanks".
 std::string describe(const TrajectoryReading& reading);
 
 /// The format of `file`, from its first line with data: commas make it EuRoC, eight columns TUM,
-/// twelve, or thirteen with a frame number, KITTI. \throws files::InputError if it is none of
+/// twelve, or thirteen with a frame number, KITTI, names of columns CSV, VERTEX_ and EDGE_ g2o;
+/// bags from their first bytes, and folders are bags. \throws files::InputError if it is none of
 /// these.
 TrajectoryFormat detect_trajectory_format(const std::filesystem::path& file);
 
@@ -67,12 +86,18 @@ TrajectoryFormat detect_trajectory_format(const std::filesystem::path& file);
 geometry::Trajectory read_trajectory(const std::filesystem::path& file, TrajectoryFormat format,
                                      TrajectoryReading* reading = nullptr);
 
+geometry::Trajectory read_trajectory(const std::filesystem::path& file,
+                                     const TrajectoryChoice& choice,
+                                     TrajectoryReading* reading = nullptr);
+
 /// Takes the poses of a file one after the other, with their stamps where the format has them.
 using PoseTaker =
     std::function<void(const std::optional<geometry::Stamp>&, const geometry::Pose3& T_map_body)>;
 
 /// The same without keeping the poses. \throws as read_trajectory(), after those before were taken
 TrajectoryReading read_poses(const std::filesystem::path& file, TrajectoryFormat format,
+                             const PoseTaker& take);
+TrajectoryReading read_poses(const std::filesystem::path& file, const TrajectoryChoice& choice,
                              const PoseTaker& take);
 
 /// Write T_map_body; the file appears whole or not at all. A trajectory without poses gives a file

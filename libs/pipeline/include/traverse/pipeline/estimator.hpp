@@ -20,6 +20,8 @@
 
 namespace traverse::pipeline {
 
+struct ForeignTiming;
+
 /// What an estimator says of one moment of the recording.
 struct PoseFrame {
   geometry::Stamp stamp;
@@ -107,6 +109,10 @@ class Estimator {
 
   /// About how much memory a copy takes, where it is more than a few kilobytes.
   virtual std::size_t bytes() const { return 0; }
+
+  /// Of poses that another program made, what is known of that one's run; the frames then tell
+  /// neither their times, unless it does, nor how they were found. Nothing: Traverse estimated.
+  virtual std::optional<ForeignTiming> foreign() const;
 
   /// Where the map's origin is, x east and y north there; nothing if it is nowhere on Earth.
   virtual std::optional<geodesy::Geodetic> map_origin() const { return std::nullopt; }

@@ -58,6 +58,9 @@ struct RunHealth {
   std::vector<HealthReason> reasons;  ///< the most severe first; none if ok
 
   bool is_navigation = false;  ///< by fixes, wheels and the IMU, not by scans
+  /// Another program made the poses: how it found them, registrable to restarts below, is not
+  /// known.
+  bool is_foreign = false;
   std::size_t frames = 0;
   /// Frames whose pose could rest on a measurement of where the vehicle is: all but the first, and
   /// but those in an outage that was asked for.
@@ -104,6 +107,7 @@ struct HealthEvidence {
   std::optional<geometry::Stamp> recording_first = {};
   std::optional<geometry::Stamp> recording_last = {};
   std::vector<Contradiction> contradictions = {};
+  bool is_foreign = false;  ///< another program made the poses
 };
 
 /// The assessment, for every kind of estimator alike, by the estimator's own record and by what

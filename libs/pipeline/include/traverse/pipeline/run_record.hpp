@@ -9,6 +9,7 @@
 
 #include "traverse/dataset/source.hpp"
 #include "traverse/pipeline/estimator.hpp"
+#include "traverse/pipeline/imported_poses.hpp"
 #include "traverse/pipeline/provenance.hpp"
 #include "traverse/pipeline/registry.hpp"
 #include "traverse/pipeline/run_digests.hpp"
@@ -49,6 +50,9 @@ struct RunRecord {
   std::string estimator_kind;  ///< "voxel_map", "localize_voxel_map"
   std::vector<ResolvedSetting> settings;
   int threads = 1;
+  /// Of poses that another program made: what is known of its run, in place of the threads, times
+  /// and memory of this one.
+  std::optional<ForeignTiming> foreign;
 
   dataset::RecordingInfo recording;
   std::vector<std::string> statements;  ///< about it, beyond what stands beside it

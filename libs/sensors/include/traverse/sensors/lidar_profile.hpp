@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <numbers>
 #include <string>
@@ -41,6 +43,12 @@ struct LidarNoise {
   double intensity_share = 0.03;      ///< standard deviation of an intensity, relative
 };
 
+/// One of several lidars whose returns stand in one scan.
+struct LidarInScan {
+  std::size_t first_ring = 0;        ///< of the scan; its own rings end where the next one's begin
+  std::array<double, 3> origin_m{};  ///< where it looks from, in the scan's frame
+};
+
 /// What must be known of a lidar to use its points. Read from share/sensors/*.yaml.
 struct LidarProfile {
   std::string name = "unknown lidar";
@@ -65,6 +73,10 @@ struct LidarProfile {
   /// How far before the axis of a round pole the mean of its returns lies, in radii. Beams that hit
   /// it evenly from side to side: the mean of sqrt(1 - u^2) over [-1, 1], pi / 4.
   double pole_depth = std::numbers::pi / 4;
+
+  /// Of scans that several lidars' were put together to: the lidars, by ring. Empty: there is one,
+  /// at the origin. Not in files: who puts scans together knows it.
+  std::vector<LidarInScan> lidars_in_scan;
 
   LidarFiring firing;
   LidarNoise noise;

@@ -12,6 +12,10 @@
 
 namespace traverse::simulation {
 
+/// Sides of a post or trunk, which is round: the mean of the returns from a prism of 8 sides lies
+/// 5 % less far before its axis (in half widths) than from a round one, of 24 sides 0.6 %.
+inline constexpr int kRound = 24;
+
 /// Surfaces as triangles, each seen from both sides. Metres.
 class Mesh {
  public:

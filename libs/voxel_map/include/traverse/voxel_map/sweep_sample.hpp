@@ -27,7 +27,7 @@ struct SweepSample {
 
   SweepPoints surface;  ///< for the map: planar points and rough ones
   std::vector<std::uint8_t> surface_is_planar;
-  SweepPoints planar;  ///< for the registration: the first planar point of each cube
+  SweepPoints planar;  ///< for the registration: each lidar's first planar point of each cube
   SweepPoints edges;   ///< for both
 
   double organise_ms = 0;  ///< rows and ranges
