@@ -184,7 +184,7 @@ lidar::Frame FusedScans::add(const SweepSample& sample, const ImuReadings& imu,
 /// The normalised innovation squared of the pose where the matches have it, by what is left of
 /// prediction and matches at their best compromise, which is the same.
 void FusedScans::note_innovation(const Condensed& found, const Vector6& least) {
-  constexpr double kMemory = 20;  // scans
+  constexpr double kMemory = 40;  // scans
   constexpr double kMost = 1e4;   // one scan alone is no proof
   const NavState& predicted = chain_.newest();
   const Pose3 at = lidar_pose(predicted);

@@ -46,7 +46,7 @@ class FusedScans {
   /// Of the last scan that was registered: chi-square of where its matches have the pose against
   /// the prediction, by its degrees of freedom; 1 where both err as they are taken to.
   double innovation() const { return innovation_; }
-  /// The same over the last two seconds.
+  /// The same over the last forty scans.
   double disagreement() const { return disagreement_; }
   const geometry::Pose3& lidar_in_the_middle() const { return T_map_last_; }
 

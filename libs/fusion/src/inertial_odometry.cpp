@@ -53,7 +53,7 @@ void bind(config::Binder& b, StartOptions& o) {
            "largest bias of the accelerometer that is believed, m/s^2");
   b.number(
       "most_disagreement", o.most_disagreement, Range::positive(),
-      "largest chi-square by degrees of freedom, over two seconds, at which the IMU is believed");
+      "largest chi-square by degrees of freedom, over forty scans, at which the IMU is believed");
   b.number("longest_gap_s", o.longest_gap_s, Range::positive(),
            "gap between IMU readings that is bridged; beyond it, constant velocity");
 }

@@ -24,8 +24,8 @@ struct StartOptions {
   double longest_gap_s = 0.15;      ///< of the IMU's readings
   /// What an IMU is not believed beyond: biases that no unit has stand for wrong axes or units.
   double most_accelerometer_bias = 0.6;  ///< m/s^2
-  /// Chi-square by degrees of freedom of the matches against the prediction, over two seconds.
-  double most_disagreement = 30;
+  /// Chi-square by degrees of freedom of the matches against the prediction, over forty scans.
+  double most_disagreement = 10;
 };
 void bind(config::Binder& binder, StartOptions& options);
 
