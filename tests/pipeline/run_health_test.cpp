@@ -151,6 +151,22 @@ TEST(RunHealth, APathThatLeapsIsLostAndOneWhoseStampsJitterIsNot) {
   EXPECT_EQ(jitter.leaps.count, 0U);
 }
 
+TEST(RunHealth, APathWhoseStepsDoNotFitEachOtherForASecondIsDegraded) {
+  const auto off_by = [](double metres, std::size_t from, std::size_t to) {
+    return health_of(lidar_run(60, [=](std::size_t i) {
+      const double side = i % 3 == 0 ? 1.2 : (i % 3 == 1 ? -0.2 : -1.0);
+      return LidarFrame{true, 0, i >= from && i < to ? metres * side : 0};
+    }));
+  };
+  EXPECT_EQ(off_by(0.05, 0, 60).verdict, Health::kOk);
+  EXPECT_EQ(off_by(0.15, 30, 34).verdict, Health::kOk);  // not for a second
+  const RunHealth health = off_by(0.15, 20, 45);
+  EXPECT_EQ(health.verdict, Health::kDegraded);
+  EXPECT_THAT(codes(health), ::testing::ElementsAre("shaking"));
+  EXPECT_GE(health.shaking.frame, 19U);
+  EXPECT_LE(health.shaking.frame, 36U);
+}
+
 TEST(RunHealth, PosesThatNothingMovesAlthoughRegisteredAreTold) {
   MadeRun run({"registered", "degenerate_directions"});
   for (std::size_t i = 0; i < 24; ++i) {

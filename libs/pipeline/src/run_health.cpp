@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string_view>
 #include <utility>
 
@@ -44,6 +45,11 @@ constexpr double kLongStart_s = 30;
 /// What registration is off by, and five times the acceleration of gravity: a crash.
 constexpr double kLeap_m = 1;
 constexpr double kLargestAcceleration_mps2 = 50;
+/// For a second on end: poses that are each off by a decimetre (a step and the one before it by the
+/// root of six of that), and an acceleration as that of gravity, which tyres do not hold.
+constexpr double kShaking_m = 0.245;
+constexpr double kShaking_mps2 = 9.81;
+constexpr double kShakingFor_s = 1;
 constexpr std::size_t kFewestFrames = 5;  // to tell a rule from a coincidence
 
 std::string percent(double share) {
@@ -129,13 +135,20 @@ Gaps gaps_of(const HealthEvidence& evidence) {
   return gaps;
 }
 
-/// Steps beyond where the velocity before them led. That is the mean velocity of at least as long a
-/// time as the step takes, since frames may follow each other closely. \param corrected frames in
-/// which the estimator learned where it is, after a time in which it did not know
-Leaps leaps_of(const HealthEvidence& evidence, const std::vector<bool>& corrected) {
-  const geometry::Trajectory& path = evidence.T_map_body;
-  const std::vector<double> numbers = evidence.frames.column("frame");
-  Leaps leaps;
+/// A step beyond where the velocity before it led.
+struct StepOff {
+  std::size_t to = 0;  ///< pose
+  double off_m = 0;
+  double dt = 0, before = 0;  ///< seconds of the step, and of the motion that it is held against
+};
+
+/// How steps go on from the velocity before them: the mean of at least as long a time as the step
+/// takes, since frames may follow each other closely. \param corrected frames in which the
+/// estimator learned where it is, after a time in which it did not know \param leaps those after
+/// which motion is told anew
+std::vector<StepOff> steps_off(const geometry::Trajectory& path, const std::vector<bool>& corrected,
+                               const std::function<bool(const StepOff&)>& leaps) {
+  std::vector<StepOff> steps;
   std::size_t begin = 0;  // of the motion that a step is held against
   for (std::size_t i = 1; i < path.size(); ++i) {
     if (corrected[i]) begin = i;
@@ -147,15 +160,59 @@ Leaps leaps_of(const HealthEvidence& evidence, const std::vector<bool>& correcte
     const Eigen::Vector3d& p_last = path.pose(i - 1).translation;
     const Eigen::Vector3d velocity = (p_last - path.pose(from).translation) / before;
     const double off_m = (path.pose(i).translation - p_last - dt * velocity).norm();
-    if (off_m <= kLeap_m + 0.5 * kLargestAcceleration_mps2 * dt * (dt + before)) continue;
+    steps.push_back({i, off_m, dt, before});
+    if (leaps(steps.back())) begin = i;
+  }
+  return steps;
+}
+
+bool is_leap(const StepOff& step) {
+  return step.off_m > kLeap_m + 0.5 * kLargestAcceleration_mps2 * step.dt * (step.dt + step.before);
+}
+
+Leaps leaps_of(const HealthEvidence& evidence, const std::vector<bool>& corrected) {
+  const std::vector<double> numbers = evidence.frames.column("frame");
+  Leaps leaps;
+  for (const StepOff& step : steps_off(evidence.T_map_body, corrected, is_leap)) {
+    if (!is_leap(step)) continue;
     ++leaps.count;
-    begin = i;
-    if (off_m <= leaps.largest_m) continue;
-    leaps.largest_m = off_m;
-    leaps.seconds = dt;
-    leaps.frame = static_cast<std::size_t>(numbers[i]);
+    if (step.off_m <= leaps.largest_m) continue;
+    leaps.largest_m = step.off_m;
+    leaps.seconds = step.dt;
+    leaps.frame = static_cast<std::size_t>(numbers[step.to]);
   }
   return leaps;
+}
+
+Shaking shaking_of(const HealthEvidence& evidence, const std::vector<bool>& corrected) {
+  const geometry::Trajectory& path = evidence.T_map_body;
+  const std::vector<double> numbers = evidence.frames.column("frame");
+  const std::vector<StepOff> steps =
+      steps_off(path, corrected, [](const StepOff&) { return false; });
+  Shaking shaking;
+  for (std::size_t first = 0, end = 0; first < steps.size(); ++first) {
+    end = std::max(end, first);
+    const auto last_s = [&] { return seconds_between(path, steps[first].to, steps[end - 1].to); };
+    while (end < steps.size() && (end <= first || last_s() < kShakingFor_s)) ++end;
+    // The last second of a path is whole when its last step is a step short of it.
+    if (last_s() + 1.01 * steps[end - 1].dt < kShakingFor_s || end - first < 2 * kFewestFrames) {
+      break;
+    }
+    double squares = 0;
+    double squares_m2 = 0;
+    for (std::size_t i = first; i < end; ++i) {
+      const StepOff& step = steps[i];
+      const double limit_m = kShaking_m + 0.5 * kShaking_mps2 * step.dt * (step.dt + step.before);
+      squares += step.off_m * step.off_m / (limit_m * limit_m);
+      squares_m2 += step.off_m * step.off_m;
+    }
+    const auto count = static_cast<double>(end - first);
+    const double of_limit = std::sqrt(squares / count);
+    if (of_limit <= shaking.of_limit) continue;
+    shaking = {of_limit, std::sqrt(squares_m2 / count),
+               static_cast<std::size_t>(numbers[steps[first].to])};
+  }
+  return shaking;
 }
 
 /// Root mean square of the reference's distances from its centre, of the matched poses.
@@ -269,6 +326,12 @@ void judge_motion(const RunHealth& health, const FrameEvidence& frames, Reasons&
             metres_text(health.leaps.largest_m), seconds_text(health.leaps.seconds),
             health.leaps.frame,
             health.leaps.count > 1 ? fmt::format(", one of {} leaps", health.leaps.count) : ""));
+  }
+  if (health.shaking.of_limit > 1 && !health.is_navigation) {
+    reasons.add(Health::kDegraded, "shaking",
+                fmt::format("For a second from frame {} on each step of the path is {} (rms) off "
+                            "where the one before it led: poses or stamps are wrong.",
+                            health.shaking.frame, metres_text(health.shaking.rms_m)));
   }
   if (health.restarts > 0) {
     reasons.add(Health::kDegraded, "restarted",
@@ -419,6 +482,7 @@ RunHealth assess(const HealthEvidence& evidence) {
   health.restarts = frames.restarts;
   health.gaps = gaps_of(evidence);
   health.leaps = leaps_of(evidence, frames.is_corrected);
+  health.shaking = shaking_of(evidence, frames.is_corrected);
   health.skipped_records = evidence.skipped_records;
   const std::size_t records = evidence.skipped_records + evidence.read_records;
   if (records > 0) {
