@@ -3,8 +3,8 @@
 //   kiss_icp_kitti FOLDER THREADS poses.txt
 //
 // Reads FOLDER/velodyne/*.bin (float32 x y z intensity) and writes one pose for each, of the lidar,
-// the first being the identity, as twelve numbers. Settings are those of KISS-ICP as it comes but for
-// `deskew`: these files have no times of points.
+// the first being the identity, as twelve numbers. Settings are those of KISS-ICP as it comes but
+// for `deskew`: these files have no times of points.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

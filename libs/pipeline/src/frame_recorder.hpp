@@ -15,8 +15,9 @@
 namespace traverse::pipeline {
 
 /// Keeps how frames were registered, for pictures of the worst segments, which are known only at
-/// the end; of poses that another program made the scans alone: of every five frames the one with the largest residuals, its scan and its matches
-/// thinned, in a file without a name. Memory holds one frame; disk about 30 kB for each of the run.
+/// the end; of poses that another program made the scans alone: of every five frames the one with
+/// the largest residuals, its scan and its matches thinned, in a file without a name. Memory holds
+/// one frame; disk about 30 kB for each of the run.
 class FrameRecorder {
  public:
   /// \param folder on whose disk there is room

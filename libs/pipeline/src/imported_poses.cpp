@@ -68,7 +68,8 @@ Pose3 frame_in_body(const std::string& frame, const dataset::RecordingInfo& reco
   }
   const sensors::MountedSensor* lidar = recording.rig.first(sensors::SensorKind::kLidar);
   if (lidar != nullptr) return lidar->T_body_sensor;
-  throw InputError(recording.path, Place::whole_file(), "a 3-D lidar, since --frame lidar is asked for",
+  throw InputError(recording.path, Place::whole_file(),
+                   "a 3-D lidar, since --frame lidar is asked for",
                    "none; --frame body takes the poses as they are");
 }
 
@@ -129,8 +130,7 @@ ImportedPoses read_imported_poses(const ImportOptions& options,
   const Pose3 T_body_frame = frame_in_body(options.frame, recording);
   const Pose3 T_body_moving = T_body_frame * extrinsic_of(options.extrinsic);
   const Pose3 T_map_world = map_of_world(given.pose(0), T_body_moving);
-  poses.T_map_body =
-      given.transformed_right(T_body_moving.inverse()).transformed_left(T_map_world);
+  poses.T_map_body = given.transformed_right(T_body_moving.inverse()).transformed_left(T_map_world);
   if (!given.is_stamped()) {
     poses.scans = reading.frame_numbers;
     for (std::size_t i = poses.scans.size(); i < given.size(); ++i) poses.scans.push_back(i);

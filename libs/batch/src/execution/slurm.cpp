@@ -81,9 +81,9 @@ std::vector<std::string> submission(const Plan& plan, const ExecutionContext& co
                                     std::size_t runs_per_task) {
   const fs::path logs = fs::path(list).replace_extension("");
   // A program that is not ours, and then what it wrote is taken over: each may take as long.
-  const bool has_commands =
-      std::any_of(plan.pipelines.begin(), plan.pipelines.end(),
-                  [](const PlannedPipeline& pipeline) { return static_cast<bool>(pipeline.command); });
+  const bool has_commands = std::any_of(
+      plan.pipelines.begin(), plan.pipelines.end(),
+      [](const PlannedPipeline& pipeline) { return static_cast<bool>(pipeline.command); });
   const double steps = has_commands ? 2 : 1;
   std::vector<std::string> words{
       "sbatch",
