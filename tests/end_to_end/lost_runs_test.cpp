@@ -176,6 +176,16 @@ TEST_F(LostRuns, TheTownItselfIsOkByEveryOdometry) {
   }
 }
 
+TEST_F(LostRuns, ByLidarAndImuTheTownIsOkTooAndHasItsPage) {
+  const fs::path folder = folder_ / "run";
+  const ProgramResult result =
+      run_program("run '" + town().string() + "' --no-hash --pipeline traverse-inertial -o '" +
+                  folder.string() + "'");
+  EXPECT_EQ(result.status, 0) << result.everything();
+  EXPECT_EQ(status(), "ok") << result.everything();
+  EXPECT_TRUE(fs::exists(folder / "report.html"));
+}
+
 TEST_F(LostRuns, AreNotOkByAnyOdometryWithOrWithoutAReference) {
   for (const Fault& fault : faults()) {
     for (const bool with_reference : {true, false}) {

@@ -308,6 +308,15 @@ class InertialOdometry::Impl {
       }
       frame.further[7] = x.wheel_scale;
       frame.further[8] = fused_->innovation();
+      const auto sigma = [&](int part) {
+        return std::sqrt(fused_->chain().covariance()(part, part));
+      };
+      for (int k = 0; k < 3; ++k) {
+        const auto n = static_cast<std::size_t>(k);
+        frame.further[9 + n] = sigma(inertial::NavState::kGyroBias + k);
+        frame.further[12 + n] = sigma(inertial::NavState::kAccelerometerBias + k);
+      }
+      frame.further[15] = sigma(inertial::NavState::kWheelScale);
     }
     return frames;
   }
@@ -317,15 +326,23 @@ class InertialOdometry::Impl {
     double middle_s = 0;
   };
 
+  /// As those of navigation, which charts and tables know.
   inline static const std::vector<std::string> kColumns{"fused",
-                                                        "gyro_bias_x_rads",
-                                                        "gyro_bias_y_rads",
-                                                        "gyro_bias_z_rads",
-                                                        "accelerometer_bias_x_mps2",
-                                                        "accelerometer_bias_y_mps2",
-                                                        "accelerometer_bias_z_mps2",
+                                                        "gyro_bias_x_rad_s",
+                                                        "gyro_bias_y_rad_s",
+                                                        "gyro_bias_z_rad_s",
+                                                        "accelerometer_bias_x_m_s2",
+                                                        "accelerometer_bias_y_m_s2",
+                                                        "accelerometer_bias_z_m_s2",
                                                         "wheel_scale",
-                                                        "imu_innovation"};
+                                                        "imu_innovation",
+                                                        "gyro_bias_x_sigma",
+                                                        "gyro_bias_y_sigma",
+                                                        "gyro_bias_z_sigma",
+                                                        "accelerometer_bias_x_sigma",
+                                                        "accelerometer_bias_y_sigma",
+                                                        "accelerometer_bias_z_sigma",
+                                                        "wheel_scale_sigma"};
 
   InertialOdometryOptions options_;
   sensors::LidarProfile profile_;
