@@ -41,7 +41,7 @@ class SweepRows {
  public:
   static constexpr std::size_t kRangeImageRows = 64;
 
-  /// Refers to `scan` and `profile`, which must outlive it.
+  /// Refers to `scan`, which must outlive it.
   SweepRows(const sensors::LidarScan& scan, const sensors::LidarProfile& profile);
 
   std::size_t count() const { return row_begin_.size() - 1; }
@@ -57,7 +57,7 @@ class SweepRows {
   void look_from_own_lidars();
 
   const sensors::LidarScan& scan_;
-  const std::vector<sensors::LidarInScan>& lidars_;
+  std::vector<sensors::LidarInScan> lidars_;
   lidar::DroppedPoints dropped_;
   bool borrowed_ = false;
   bool from_range_image_ = false;
