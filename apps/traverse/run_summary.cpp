@@ -136,15 +136,14 @@ void print_run_summary(const pipeline::RunRecord& record, const pipeline::RunFol
                fmt::format("entropy (MME) {:.3f}, {} points ({})", evaluation.consistency->mme,
                            record.map_points, record.points_are));
   }
-  if (record.foreign) {
-    for (const pipeline::Decision& decision : record.decisions) {
-      print_line(decision.name.c_str(), decision.value);
-    }
+  for (const pipeline::Decision& decision : record.decisions) {
+    if (record.foreign || decision.is_told) print_line(decision.name.c_str(), decision.value);
   }
-  if (!record.foreign)
+  if (!record.foreign) {
     print_line("time", fmt::format("{:.1f} ms per frame (median), {:.1f} ms at 95 %, {} thread{}",
                                    record.frame_median_ms, record.frame_p95_ms, record.threads,
                                    record.threads == 1 ? "" : "s"));
+  }
   print_line("run", folder.path.string());
   if (with_report) print_line("report", folder.report().string());
 }

@@ -163,8 +163,7 @@ TEST(RunHealth, APathWhoseStepsDoNotFitEachOtherForASecondIsDegraded) {
   const RunHealth health = off_by(0.15, 20, 45);
   EXPECT_EQ(health.verdict, Health::kDegraded);
   EXPECT_THAT(codes(health), ::testing::ElementsAre("shaking"));
-  EXPECT_GE(health.shaking.frame, 19U);
-  EXPECT_LE(health.shaking.frame, 36U);
+  EXPECT_THAT(health.summary(), HasSubstr("For a second from frame "));
 }
 
 TEST(RunHealth, PosesThatNothingMovesAlthoughRegisteredAreTold) {

@@ -87,7 +87,8 @@ class InertialOdometry::Impl {
   void mount(const sensors::Rig& rig, const sensors::MountedSensor& lidar) {
     const sensors::MountedSensor* imu = rig.first(sensors::SensorKind::kImu);
     has_imu_ = imu != nullptr;
-    start_note_ = has_imu_ ? "" : "no IMU in this recording: as the lidar alone";
+    start_note_ = has_imu_ ? "not begun: too few scans to begin with"
+                           : "no IMU in this recording: as the lidar alone";
     if (!has_imu_) return;
     const geometry::Pose3 T_lidar_body = lidar.T_body_sensor.inverse();
     p_lidar_imu_ = T_lidar_body * imu->T_body_sensor.translation;
@@ -153,7 +154,7 @@ class InertialOdometry::Impl {
   bool has_wheels() const { return has_wheels_; }
 
   std::vector<lidar::Note> notes() const {
-    std::vector<lidar::Note> notes{{"fusion with the IMU", start_note_, is_contradicted_}};
+    std::vector<lidar::Note> notes{{"fusion", start_note_, is_contradicted_, true}};
     if (imu_.left_out() > 0) {
       notes.push_back({"IMU readings left out (not finite, or not later than the one before)",
                        std::to_string(imu_.left_out())});

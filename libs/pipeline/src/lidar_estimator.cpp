@@ -274,7 +274,7 @@ std::vector<Decision> LidarEstimator::decisions() const {
       {"deskew", odometry_->deskew_note()},
       {"points", points_are()}};
   for (lidar::Note& note : odometry_->notes()) {
-    decisions.push_back({std::move(note.name), std::move(note.value)});
+    decisions.push_back({std::move(note.name), std::move(note.value), note.is_told});
   }
   return decisions;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <string_view>
 #include <utility>
 
@@ -142,12 +141,19 @@ struct StepOff {
   double dt = 0, before = 0;  ///< seconds of the step, and of the motion that it is held against
 };
 
+/// The second in which the steps of the path fit each other worst.
+struct Shaking {
+  double of_limit = 0;    ///< root mean square of what a step is off, by the limit of one
+  double rms_m = 0;       ///< beyond where the motion before led
+  std::size_t frame = 0;  ///< the first of them
+};
+
 /// How steps go on from the velocity before them: the mean of at least as long a time as the step
 /// takes, since frames may follow each other closely. \param corrected frames in which the
 /// estimator learned where it is, after a time in which it did not know \param leaps those after
 /// which motion is told anew
 std::vector<StepOff> steps_off(const geometry::Trajectory& path, const std::vector<bool>& corrected,
-                               const std::function<bool(const StepOff&)>& leaps) {
+                               bool (*leaps)(const StepOff&)) {
   std::vector<StepOff> steps;
   std::size_t begin = 0;  // of the motion that a step is held against
   for (std::size_t i = 1; i < path.size(); ++i) {
@@ -293,7 +299,8 @@ void judge_registration(const RunHealth& health, const FrameEvidence& frames, Re
   }
 }
 
-void judge_motion(const RunHealth& health, const FrameEvidence& frames, Reasons& reasons) {
+void judge_motion(const RunHealth& health, const FrameEvidence& frames, const Shaking& shaking,
+                  Reasons& reasons) {
   const auto of = static_cast<double>(health.registered);
   if (static_cast<double>(health.unsupported) > kHalf * of) {
     reasons.add(
@@ -327,11 +334,11 @@ void judge_motion(const RunHealth& health, const FrameEvidence& frames, Reasons&
             health.leaps.frame,
             health.leaps.count > 1 ? fmt::format(", one of {} leaps", health.leaps.count) : ""));
   }
-  if (health.shaking.of_limit > 1 && !health.is_navigation) {
+  if (shaking.of_limit > 1 && !health.is_navigation) {
     reasons.add(Health::kDegraded, "shaking",
                 fmt::format("For a second from frame {} on each step of the path is {} (rms) off "
                             "where the one before it led: poses or stamps are wrong.",
-                            health.shaking.frame, metres_text(health.shaking.rms_m)));
+                            shaking.frame, metres_text(shaking.rms_m)));
   }
   if (health.restarts > 0) {
     reasons.add(Health::kDegraded, "restarted",
@@ -482,7 +489,6 @@ RunHealth assess(const HealthEvidence& evidence) {
   health.restarts = frames.restarts;
   health.gaps = gaps_of(evidence);
   health.leaps = leaps_of(evidence, frames.is_corrected);
-  health.shaking = shaking_of(evidence, frames.is_corrected);
   health.skipped_records = evidence.skipped_records;
   const std::size_t records = evidence.skipped_records + evidence.read_records;
   if (records > 0) {
@@ -500,7 +506,7 @@ RunHealth assess(const HealthEvidence& evidence) {
 
   Reasons reasons;
   judge_registration(health, frames, reasons);
-  judge_motion(health, frames, reasons);
+  judge_motion(health, frames, shaking_of(evidence, frames.is_corrected), reasons);
   for (const SensorUse& sensor : health.sensors)
     judge_sensor(sensor, frames.is_navigation, reasons);
   judge_recording(health, reasons);

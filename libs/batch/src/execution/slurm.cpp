@@ -17,6 +17,7 @@
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/digest.hpp"
 #include "traverse/files/numbers.hpp"
+#include "traverse/files/shell_word.hpp"
 #include "traverse/pipeline/provenance.hpp"
 
 #include "execution/command.hpp"
@@ -69,12 +70,6 @@ SlurmQueue queue_of(const BatchFolder& folder, const Waits& waits, const std::at
   return queue;
 }
 
-std::string quoted(const std::string& word) {
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 /// The words of sbatch for an array of `tasks` tasks.
 std::vector<std::string> submission(const Plan& plan, const ExecutionContext& context,
                                     const fs::path& list, std::size_t tasks,
@@ -100,8 +95,9 @@ std::vector<std::string> submission(const Plan& plan, const ExecutionContext& co
     words.push_back(fmt::format("--mem={:.0f}M", plan.limits.memory_mb + kMargin_mb));
   }
   words.insert(words.end(), plan.slurm.sbatch.begin(), plan.slurm.sbatch.end());
-  words.push_back("--wrap=exec " + quoted(context.program.string()) + " batch task " +
-                  quoted(list.string()) + " -o " + quoted(context.folder.path.string()) +
+  words.push_back("--wrap=exec " + files::in_shell_quotes(context.program.string()) +
+                  " batch task " + files::in_shell_quotes(list.string()) + " -o " +
+                  files::in_shell_quotes(context.folder.path.string()) +
                   " --task $SLURM_ARRAY_TASK_ID --runs-per-task " + std::to_string(runs_per_task));
   return words;
 }

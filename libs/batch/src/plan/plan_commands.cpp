@@ -52,7 +52,7 @@ std::optional<fs::path> program_named(const std::string& name) {
   return std::nullopt;
 }
 
-/// The first word that is not an assignment of the environment's ("OMP_NUM_THREADS=1").
+/// Whether a word before the program sets a variable for it ("OMP_NUM_THREADS=1").
 bool is_assignment(std::string_view word) {
   const std::size_t equals = word.find('=');
   return equals != std::string_view::npos && word.find('/') > equals;

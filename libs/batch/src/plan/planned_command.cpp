@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "traverse/files/input_error.hpp"
+#include "traverse/files/shell_word.hpp"
 
 #include "plan/command_text.hpp"
 
@@ -18,13 +19,6 @@ namespace traverse::batch {
 namespace {
 
 constexpr std::string_view kFormat = "format:";
-
-/// A word that /bin/sh takes as it stands.
-std::string in_shell_quotes(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 /// Whether braces enclose a placeholder rather than something of the shell's or of awk's.
 bool is_placeholder(std::string_view name) {
@@ -36,16 +30,16 @@ bool is_placeholder(std::string_view name) {
 std::optional<std::string> value_of_placeholder(const std::string& name,
                                                 const PlannedCommand& command,
                                                 const CommandPlaces& places) {
-  if (name == "recording") return in_shell_quotes(places.recording.string());
+  if (name == "recording") return files::in_shell_quotes(places.recording.string());
   if (name == "out") return "\"$PWD\"";
   if (name == "threads") return std::to_string(places.threads);
-  if (name == "plan") return in_shell_quotes(places.plan_folder.string());
+  if (name == "plan") return files::in_shell_quotes(places.plan_folder.string());
   if (name == "config" && !command.config_file.empty()) {
-    return in_shell_quotes(command.config_file.string());
+    return files::in_shell_quotes(command.config_file.string());
   }
   if (name.starts_with(kFormat)) {
     const auto found = places.converted.find(name.substr(kFormat.size()));
-    if (found != places.converted.end()) return in_shell_quotes(found->second.string());
+    if (found != places.converted.end()) return files::in_shell_quotes(found->second.string());
   }
   for (const std::string& setting : places.settings) {
     if (setting.starts_with(name + "=")) return setting.substr(name.size() + 1);

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "traverse/files/shell_word.hpp"
+
 #include "run/number_texts.hpp"
 #include "sections/sections.hpp"
 
@@ -111,24 +113,13 @@ Table made_table(const json& record) {
 std::string command_text(const json& command) {
   std::vector<std::string> words;
   for (const json& part : command) {
-    std::string word = part;
+    const std::string word = part;
     const bool plain =
         !word.empty() &&
         word.find_first_not_of(
             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%") ==
             std::string::npos;
-    if (!plain) {
-      std::string quoted = "'";
-      for (const char c : word) {
-        if (c == '\'') {
-          quoted += "'\\''";
-        } else {
-          quoted += c;
-        }
-      }
-      word = quoted + "'";
-    }
-    words.push_back(word);
+    words.push_back(plain ? word : files::in_shell_quotes(word));
   }
   return fmt::format("{}", fmt::join(words, " "));
 }

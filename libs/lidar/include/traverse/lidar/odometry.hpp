@@ -33,6 +33,7 @@ struct Note {
   std::string name;
   std::string value;
   bool is_trouble = false;  ///< the result is less worth for it
+  bool is_told = false;     ///< on the console too, under a short name
 };
 
 /// An algorithm that follows a lidar from scan to scan. Everything is in the lidar's own frame; the

@@ -43,6 +43,7 @@ struct UsedScan {
 struct Decision {
   std::string name;
   std::string value;
+  bool is_told = false;  ///< on the console too
 };
 
 /// A point of the last scan on the line or plane of the map that it was registered on, map frame.

@@ -44,13 +44,6 @@ struct Leaps {
   std::size_t frame = 0;
 };
 
-/// The second in which the steps of the path fit each other worst.
-struct Shaking {
-  double of_limit = 0;    ///< root mean square of what a step is off, by the limit of one
-  double rms_m = 0;       ///< beyond where the motion before led
-  std::size_t frame = 0;  ///< the first of them
-};
-
 /// Something in the recording that contradicts itself, another sensor or the estimate.
 struct Contradiction {
   std::string code;
@@ -86,7 +79,6 @@ struct RunHealth {
   std::optional<double> covered_share;       ///< of the recording's time, from first to last pose
   Gaps gaps;
   Leaps leaps;
-  Shaking shaking;
   std::size_t skipped_records = 0;
   double skipped_share = 0;  ///< of the records that were read
   /// Root mean square of the absolute errors over that of the reference's distances from its
