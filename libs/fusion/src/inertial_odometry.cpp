@@ -89,13 +89,13 @@ class InertialOdometry::Impl {
     has_imu_ = imu != nullptr;
     start_note_ = has_imu_ ? "not begun: too few scans to begin with"
                            : "no IMU in this recording: as the lidar alone";
-    if (!has_imu_) return;
+    if (imu == nullptr) return;
     const geometry::Pose3 T_lidar_body = lidar.T_body_sensor.inverse();
     p_lidar_imu_ = T_lidar_body * imu->T_body_sensor.translation;
     mounts_.p_lidar_body = -p_lidar_imu_;
     const sensors::MountedSensor* wheels = rig.first(sensors::SensorKind::kWheels);
-    has_wheels_ = wheels != nullptr && options_.wheels.use;
-    if (!has_wheels_) return;
+    if (wheels == nullptr || !options_.wheels.use) return;
+    has_wheels_ = true;
     mounts_.wheels.emplace();
     mounts_.wheels->encoder = wheels->encoder;
     const geometry::Pose3 T_lidar_wheels = T_lidar_body * wheels->T_body_sensor;
