@@ -12,7 +12,8 @@ namespace traverse::dataset {
 using files::InputError;
 using files::Place;
 
-FileCursor::FileCursor(std::filesystem::path path) : FileCursor(path, files::read_bytes(path)) {}
+FileCursor::FileCursor(const std::filesystem::path& path)
+    : FileCursor(path, files::read_bytes(path)) {}
 
 FileCursor::FileCursor(std::filesystem::path path, std::vector<std::byte> beginning)
     : path_(std::move(path)), bytes_(std::move(beginning)) {

@@ -17,7 +17,7 @@ class FileCursor {
  public:
   /// Begins behind a byte order mark. \throws files::InputError if the file cannot be read or is
   /// text in UTF-16.
-  explicit FileCursor(std::filesystem::path path);
+  explicit FileCursor(const std::filesystem::path& path);
   /// On these bytes, with which the file begins.
   FileCursor(std::filesystem::path path, std::vector<std::byte> beginning);
 
