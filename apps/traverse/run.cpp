@@ -20,9 +20,11 @@
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/number_text.hpp"
+#include "traverse/mapping/las_export.hpp"
 #include "traverse/pipeline/imported_poses.hpp"
 #include "traverse/pipeline/run_destination.hpp"
 #include "traverse/pipeline/run_digests.hpp"
+#include "traverse/pipeline/run_keyframes.hpp"
 #include "traverse/pipeline/utm_trajectory.hpp"
 #include "traverse/plausibility/stream_checks.hpp"
 
@@ -67,6 +69,17 @@ void write_utm(const pipeline::Estimator& estimator, const pipeline::RunFolder& 
   dataset::write_tum(folder.utm_trajectory(), utm.T_utm_body);
   fmt::print("UTM        zone {}{}, {}\n", utm.zone, utm.is_north ? 'N' : 'S',
              folder.utm_trajectory().filename().string());
+}
+
+/// The points of the map, if it has any, in the frame that is the most use elsewhere.
+void write_las(const pipeline::RunFolder& folder) {
+  if (!std::filesystem::exists(folder.map_points())) {
+    fmt::print("no {}: the run has no map\n", folder.las().filename().string());
+    return;
+  }
+  const auto result = mapping::export_las(folder.map_points(), pipeline::read_origin(folder),
+                                          mapping::LasFrame::kGrid, folder.las());
+  fmt::print("{}: {} points, {}\n", folder.las().filename().string(), result.points, result.frame);
 }
 
 /// With a map, the preset's odometry is followed in it.
@@ -122,9 +135,10 @@ class RunExtras {
   void make(dataset::Source& source, const pipeline::Estimator& estimator,
             pipeline::RunRecord& record, const std::filesystem::path& templates,
             const std::filesystem::path& place) {
-    if (arguments_.utm) {
+    if (arguments_.utm || arguments_.las) {
       attempt([&] {
-        write_utm(estimator, folder_);
+        if (arguments_.utm) write_utm(estimator, folder_);
+        if (arguments_.las) write_las(folder_);
         pipeline::add_digests(folder_, record.files);
         pipeline::write_record(folder_, record);
       });
@@ -344,6 +358,9 @@ CLI::App* add_estimating(CLI::App& app, const std::string& name, const std::stri
       ->capture_default_str();
   run->add_flag("--utm", arguments->utm,
                 "write the trajectory in UTM coordinates too (RUN/trajectory_utm.tum)");
+  run->add_flag(
+      "--las", arguments->las,
+      "the map's points as LAS 1.4 too (RUN/map.las), in the UTM zone of a run with GNSS");
   run->callback([arguments] { make_run(*arguments, command_line()); });
   return run;
 }

@@ -41,6 +41,7 @@ struct RunArguments {
   int threads = 1;
   bool report = true;
   bool utm = false;
+  bool las = false;
   std::optional<std::filesystem::path> budget;
   bool hash = true;
   bool bench_factors = false;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <set>
@@ -36,7 +37,7 @@ class MapCommand : public ::testing::Test {
         run_program("simulate town_loop --sensor vlp16 --first 100 --duration 4 -o " + rawlog);
     ASSERT_EQ(made.status, 0) << made.messages;
     const std::string run = "run " + rawlog + " --no-report ";
-    const ProgramResult first = run_program(run + "--last 29 -o " + path("run1"));
+    const ProgramResult first = run_program(run + "--las --last 29 -o " + path("run1"));
     ASSERT_EQ(first.status, 0) << first.messages;
     const ProgramResult second = run_program(run + "--first 8 -o " + path("run2"));
     ASSERT_EQ(second.status, 0) << second.messages;
@@ -111,6 +112,14 @@ std::vector<std::string> words_of_other_readers(const std::string& las) {
   std::istringstream text(files::read_text(output));
   for (std::string word; text >> word;) words.push_back(word);
   return words;
+}
+
+TEST_F(MapCommand, ARunWritesItsPointsAsLasToo) {
+  constexpr std::uintmax_t kPointBytes = 30;
+  const std::uintmax_t points = dataset::read_point_cloud(path("run1/map.ply")).size();
+  const std::uintmax_t bytes = fs::file_size(path("run1/map.las"));
+  EXPECT_GT(bytes, points * kPointBytes + 375);
+  EXPECT_LT(bytes, points * kPointBytes + 3000);
 }
 
 TEST_F(MapCommand, OtherReadersFindThePointsOfALasFileAtTheirPlaceOnEarth) {

@@ -42,7 +42,7 @@ std::vector<std::filesystem::path> RunFolder::files() const {
           loops(),        keyframes(),  reference(),      frames(),        map_points(),
           simple_map(),   origin(),     geodetic_path(),  geodetic_line(), sample_scan(),
           worst_frames(), evaluation(), jacobians(),      factor_bench(),  report(),
-          report_json()};
+          report_json(),  las()};
 }
 
 bool RunFolder::is_picture(std::string_view name) {

@@ -23,6 +23,8 @@ struct RunFolder {
   std::filesystem::path reference() const { return path / "reference.tum"; }
   std::filesystem::path frames() const { return path / "frames.csv"; }
   std::filesystem::path map_points() const { return path / "map.ply"; }
+  /// The same as LAS, if it was asked for.
+  std::filesystem::path las() const { return path / "map.las"; }
   std::filesystem::path simple_map() const { return path / "map.simplemap"; }
   /// Where on earth the map is, if its frame is ENU.
   std::filesystem::path origin() const { return path / "origin.json"; }
