@@ -129,15 +129,15 @@ TEST(Titles, SayHowAFigureWasMade) {
   const Comparison c = compare(testing::golden_estimate(), testing::golden_reference(), options);
   EXPECT_EQ(title(c.ape[0], c),
             "APE translation part, Sim(3) alignment on the first 50 poses, scale 0.979465, 514 "
-            "pairs");
+            "pairs, by evo's rule");
   EXPECT_THAT(title(c.rpe[0], c),
               HasSubstr("RPE translation part, 10 frames, consecutive pairs of the estimate, "));
-  EXPECT_THAT(title(c.rpe[0], c), HasSubstr(", 51 pairs"));
+  EXPECT_THAT(title(c.rpe[0], c), HasSubstr(", 51 pairs, by evo's rule"));
   EXPECT_EQ(describe(c.association), "514 pairs by stamp, at most 0.01 s apart");
   EXPECT_EQ(
       title(*c.kitti),
       "KITTI drift, body frame, no alignment, 131 segments of 100 to 800 m, one start every 10 "
-      "poses, 0.1 s per pose");
+      "poses, 0.1 s per pose, by the rule of KITTI's devkit");
 }
 
 TEST(Table, ShowsEveryFigureWithUnitAndOrigin) {
