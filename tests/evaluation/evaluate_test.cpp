@@ -69,7 +69,8 @@ TEST(Evaluate, AShortRunListsWhatItDoesNotDefine) {
   for (const Undefined& item : c.undefined) metrics.push_back(item.metric);
   EXPECT_THAT(metrics, ElementsAre("KITTI drift", "RPE, 50 frames, all pairs of the estimate",
                                    "RPE, 100 frames, all pairs of the estimate",
-                                   "RPE, 100 m, all pairs of the estimate"));
+                                   "RPE, 100 m, all pairs of the estimate",
+                                   "relative errors over 59.92, 119.84, 179.76, 239.69, 299.61 m"));
   EXPECT_THAT(c.undefined[0].reason, HasSubstr("longer than 100 m: its path is"));
   EXPECT_EQ(c.undefined[1].reason,
             "no pair of poses is 50 frames apart: there are 30 matched poses");

@@ -254,7 +254,7 @@ TEST(SubTrajectories, LengthsWithTooFewAreTold) {
   const Comparison comparison = *evaluate(trajectory, trajectory, options).comparison;
   EXPECT_EQ(comparison.sub_trajectories.size(), 1U);
   EXPECT_THAT(comparison.undefined,
-              ::testing::Contains(::testing::Field(&Undefined::metric, "relative error over 4 m")));
+              ::testing::Contains(::testing::Field(&Undefined::metric, "relative errors over 4 m")));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "traverse/evaluation/titles.hpp"
 
@@ -128,17 +129,19 @@ void add_sub_trajectories(const MatchedPoses& matched, const std::vector<double>
       asked_m.empty() ? sub_trajectory_lengths(comparison.reference.path_m) : asked_m;
   comparison.sub_trajectories = sub_trajectory_errors(matched.estimate, matched.reference,
                                                       comparison.alignment.scale, lengths_m);
+  std::vector<std::string> missing;
   for (const double length_m : lengths_m) {
     const bool is_there =
         std::any_of(comparison.sub_trajectories.begin(), comparison.sub_trajectories.end(),
                     [&](const SubTrajectoryErrors& errors) { return errors.length_m == length_m; });
-    if (is_there) continue;
-    comparison.undefined.push_back(
-        {fmt::format("relative error over {:g} m", length_m),
-         fmt::format("fewer than two stretches of that length: the path of the matched poses of "
-                     "the reference is {:.4g} m long",
-                     comparison.path.reference_m)});
+    if (!is_there) missing.push_back(fmt::format("{:g}", length_m));
   }
+  if (missing.empty()) return;
+  comparison.undefined.push_back(
+      {fmt::format("relative errors over {} m", fmt::join(missing, ", ")),
+       fmt::format("fewer than two stretches so long: the path of the matched poses of the "
+                   "reference is {:.4g} m long",
+                   comparison.path.reference_m)});
 }
 
 }  // namespace

@@ -47,10 +47,10 @@ struct Missing {
 void require_none(const std::vector<Missing>& missing) {
   if (missing.empty()) return;
   constexpr std::size_t kMostNamed = 20;
-  std::string found = files::in_quotes(missing.front().path.string());
+  // Whole, unlike files::in_quotes(): of a long path the end tells.
+  std::string found = fmt::format("'{}'", missing.front().path.string());
   for (std::size_t i = 1; i < std::min(missing.size(), kMostNamed); ++i) {
-    found += fmt::format("{} {}", i == 1 ? "; nor are there" : ",",
-                         files::in_quotes(missing[i].path.string()));
+    found += fmt::format("{} '{}'", i == 1 ? "; nor are there" : ",", missing[i].path.string());
   }
   if (missing.size() > kMostNamed)
     found += fmt::format(" and {} more", missing.size() - kMostNamed);

@@ -178,6 +178,10 @@ Compared gather_runs(const std::vector<fs::path>& folders, const fs::path& page,
   Compared compared;
   for (const fs::path& folder : folders) compared.runs.push_back(read_compared(folder));
   const auto names = names_of_recordings(compared.runs);
+  std::set<std::string> own;  // of which poses of another program of that name are told apart
+  for (const ComparedRun& run : compared.runs) {
+    if (!run.is_foreign()) own.insert(run.record.at("pipeline").get<std::string>());
+  }
   std::vector<Job> jobs;
   std::vector<Completion> completions;
   std::map<std::pair<std::string, std::string>, int> repeats;
@@ -189,6 +193,7 @@ Compared gather_runs(const std::vector<fs::path>& folders, const fs::path& page,
     job.id = std::to_string(jobs.size());
     job.recording = names.at(run.recording);
     job.pipeline = run.record.at("pipeline").get<std::string>();
+    if (run.is_foreign() && own.contains(job.pipeline)) job.pipeline += " (imported)";
     job.settings = changed_settings(run);
     job.repeat = ++repeats[{job.recording, job.variant()}];
     plan.is_private = plan.is_private || run.record.value("private", false);
@@ -249,6 +254,8 @@ std::string told_of(const ComparedRun& run) {
   const Json& statements = run.record.at("recording").at("statements");
   if (statements.is_array()) {
     for (const Json& statement : statements) {
+      // What it is compared with is the same for all, and stands elsewhere.
+      if (statement.is_string() && statement.get<std::string>().starts_with("reference.")) continue;
       told.push_back(statement.is_string() ? statement.get<std::string>() : statement.dump());
     }
   }

@@ -268,7 +268,7 @@ std::vector<page::Section> sections(const ReportData& data, const Counts& counts
   if (data.baseline) sections.push_back({"baseline", "Against the baseline"});
   sections.push_back({"recordings", "Recordings and pipelines"});
   sections.push_back({"distribution", "Distribution"});
-  if (has_grid) sections.push_back({"sweep", "Parameter sweep"});
+  if (has_grid && data.is_of_a_batch()) sections.push_back({"sweep", "Parameter sweep"});
   if (counts.finished > counts.ok) sections.push_back({"failures", "Runs that are not ok"});
   sections.push_back({"runs", "Runs"});
   sections.push_back({"provenance", "Provenance"});
