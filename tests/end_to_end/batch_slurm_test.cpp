@@ -159,7 +159,7 @@ limits: {time_s: 60}
   std::mt19937 random(20261202);
   const std::string rest = "batch " + (folder_ / "plan.yaml").string() + " -o " +
                            (folder_ / "cluster").string() + " --executor slurm";
-  for (int kill = 0; kill < 3; ++kill) {
+  for (int kill = 0; kill < 2; ++kill) {
     const auto ms = 200 + random() % 800;
     run_program(
         "-s KILL 0." + std::to_string(1000 + ms).substr(1) + " " + TRAVERSE_PROGRAM + " " + rest,

@@ -216,6 +216,10 @@ bool names_columns(std::string_view line) {
   return is_header(names) && layout_of_header(names).missing().empty();
 }
 
+bool names_nanoseconds_beside_seconds(std::string_view line) {
+  return names_columns(line) && layout_of_header(without_mark(line)).nanoseconds.has_value();
+}
+
 void read_named_columns(files::LineReader& reader, const std::string& columns,
                         const PoseTaker& take, TrajectoryReading& reading) {
   std::optional<std::string> header;

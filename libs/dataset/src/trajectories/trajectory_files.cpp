@@ -224,14 +224,18 @@ TrajectoryReading detect(const std::filesystem::path& file) {
     return {TrajectoryFormat::kBag, "its first bytes are a bag's", {}, {}};
   }
   LineReader reader(file);
-  if (!reader.next()) {
-    throw files::InputError(file, files::Place::whole_file(), "at least one pose", "none");
-  }
+  bool has_two_times = false;  // in a comment, where other headers are left alone
+  do {
+    if (!reader.next(LineReader::Comments::kGive)) {
+      throw files::InputError(file, files::Place::whole_file(), "at least one pose", "none");
+    }
+    has_two_times = has_two_times || names_nanoseconds_beside_seconds(reader.line());
+  } while (reader.line().starts_with('#'));
   const auto as = [](TrajectoryFormat format, std::string reason) {
     return TrajectoryReading{format, std::move(reason), {}, {}};
   };
   if (is_g2o(reader.line())) return as(TrajectoryFormat::kG2o, "lines that begin with a word");
-  if (names_columns(reader.line())) {
+  if (has_two_times || names_columns(reader.line())) {
     return as(TrajectoryFormat::kCsv, "a header that names the columns");
   }
   if (reader.line().find(',') != std::string::npos) {
