@@ -129,6 +129,40 @@ TEST_F(ImportCommand, RunsOfSeveralRecordingsAreOnePage) {
   EXPECT_THAT(files::read_text(folder_ / "private.html"), Not(HasSubstr(folder_.path().string())));
 }
 
+TEST_F(ImportCommand, SurveyedPointsAreInTheReport) {
+  // A bend, and a prism 1 m to the left and 7 m above, on a grid; each point is 1 cm off in height.
+  std::string bent;
+  std::string points = "name,stamp_s,e_m,n_m,h_m,sigma_m\n";
+  for (std::size_t i = 0; i < kScans; ++i) {
+    const double x = 0.5 * static_cast<double>(i);
+    const double y = 0.05 * x * x;
+    const double t = 0.1 * static_cast<double>(i);
+    bent += fmt::format("{} {} {} 0 0 0 0 1\n", t, x, y);
+    if (i % 2 == 0) {
+      points += fmt::format("P{},{},{},{},{},0.01\n", i, t, 100 + x, 200 + y + 1,
+                            i % 4 == 0 ? 7.01 : 6.99);
+    }
+  }
+  files::write_text(folder_ / "bent.tum", bent);
+  files::write_text(folder_ / "points.csv", points);
+  const std::string options = "--no-report --point 0,1,7 --checkpoints " + at("points.csv");
+  const ProgramResult line = import("poses.tum", options);
+  EXPECT_EQ(line.status, 1) << "of a straight line no alignment is determined";
+  EXPECT_THAT(line.messages, HasSubstr("at least three points that are not on one line"));
+  const ProgramResult made = import("bent.tum", options + " --force");
+  ASSERT_EQ(made.status, 0) << made.everything();
+  ASSERT_EQ(run_program("report --no-pictures " + at("run")).status, 0);
+  EXPECT_THAT(files::read_text(folder_ / "run/report.html"), HasSubstr("id=\"checkpoints\""));
+  const auto residuals = json::parse(files::read_text(folder_ / "run/checkpoints.json"));
+  EXPECT_EQ(residuals["check"]["count"], 6);
+  EXPECT_LT(residuals["check"]["rmse_vertical_m"], 0.011);
+  EXPECT_GT(residuals["check"]["rmse_vertical_m"], 0.005);
+  std::filesystem::resize_file(folder_ / "run/checkpoints.json", 100);
+  const ProgramResult cut = run_program("report --no-pictures " + at("run"));
+  EXPECT_EQ(cut.status, 1);
+  EXPECT_THAT(cut.messages, HasSubstr("checkpoints.json"));
+}
+
 TEST_F(ImportCommand, TimesThatAreToldAreShown) {
   files::write_text(folder_ / "timing.yaml",
                     "threads: 2\nframe_ms: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]\n");

@@ -1,12 +1,10 @@
 #include <algorithm>
-#include <filesystem>
 #include <limits>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "traverse/evaluation/checkpoints.hpp"
-#include "traverse/pipeline/run_digests.hpp"
 
 #include "run/number_texts.hpp"
 #include "sections/sections.hpp"
@@ -74,14 +72,10 @@ Table checkpoint_figures_table(const CheckpointEvaluation& evaluation) {
 
 }  // namespace
 
-bool has_checkpoints(const RunData& run) {
-  return std::filesystem::is_regular_file(run.folder.path / evaluation::kCheckpointsFile);
-}
+bool has_checkpoints(const RunData& run) { return run.checkpoints.has_value(); }
 
 void add_checkpoints(const RunData& run, Model& model) {
-  pipeline::require_as_written(run.folder, {run.folder.path / evaluation::kCheckpointsFile});
-  const CheckpointEvaluation evaluation =
-      evaluation::read_checkpoint_evaluation(run.folder.path / evaluation::kCheckpointsFile);
+  const CheckpointEvaluation& evaluation = *run.checkpoints;
   std::string how = "alignment " + evaluation::describe_alignment(evaluation);
   for (const std::string& note : evaluation.notes) how += "; " + note;
   model.add_text("checkpoints_how", how);
