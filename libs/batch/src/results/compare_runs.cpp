@@ -115,7 +115,7 @@ std::map<std::string, std::string> names_of_recordings(const std::vector<Compare
   return names;
 }
 
-Outcome outcome_of(const std::string& status) {
+Outcome outcome_by_status(const std::string& status) {
   for (const auto& [name, outcome] : kOutcomeNames) {
     if (name == status) return outcome;
   }
@@ -146,7 +146,7 @@ struct Compared {
 Completion completion_of(const ComparedRun& run, const Job& job) {
   Completion completion;
   completion.id = job.id;
-  completion.outcome = outcome_of(run.record.at("status").get<std::string>());
+  completion.outcome = outcome_by_status(run.record.at("status").get<std::string>());
   completion.reason = run.record.at("reason").is_null()
                           ? std::string()
                           : run.record.at("reason").get<std::string>();

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -51,22 +52,43 @@ Table points_table(const CheckpointEvaluation& evaluation) {
 
 Table checkpoint_figures_table(const CheckpointEvaluation& evaluation) {
   Table table("checkpoint_figures", "Of control and check points apart",
-              {"points", "count", "horizontal rmse [cm]", "95 % [cm]", "vertical rmse [cm]",
-               "95 % [cm] (vertical)", "3-D rmse [cm]", "survey, horizontal [cm]",
-               "survey, vertical [cm]", "weighted, horizontal [cm]", "weighted, vertical [cm]",
-               "residual/sigma, horizontal", "residual/sigma, vertical"});
+              {"figure", "unit", "control", "check"});
   const double none = std::numeric_limits<double>::quiet_NaN();
-  const auto add = [&](const char* kind, const std::optional<CheckpointFigures>& f) {
-    if (!f) return;
-    table.add_row({kind, Cell::count(f->count), 100 * f->rmse_horizontal_m,
-                   100 * f->p95_horizontal_m, 100 * f->rmse_vertical_m, 100 * f->p95_vertical_m,
-                   100 * f->rmse_3d_m, centimetres(f->survey_horizontal_m),
-                   centimetres(f->survey_vertical_m), 100 * f->weighted_horizontal_m.value_or(none),
-                   100 * f->weighted_vertical_m.value_or(none),
-                   f->normalised_horizontal.value_or(none), f->normalised_vertical.value_or(none)});
+  const auto add = [&](const char* name, const char* unit, auto figure) {
+    const auto cell = [&](const std::optional<CheckpointFigures>& f) {
+      return f ? Cell(figure(*f)) : Cell(none);
+    };
+    table.add_row({name, unit, cell(evaluation.control), cell(evaluation.check)});
   };
-  add("control", evaluation.control);
-  add("check", evaluation.check);
+  const auto add_cm = [&](const char* name, double CheckpointFigures::*metres) {
+    add(name, "cm", [metres](const CheckpointFigures& f) { return 100 * (f.*metres); });
+  };
+  const auto add_if_told = [&](const char* name, const char* unit, double scale,
+                               std::optional<double> CheckpointFigures::*value) {
+    const auto is_told = [&](const std::optional<CheckpointFigures>& f) {
+      return f && ((*f).*value).has_value();
+    };
+    if (!is_told(evaluation.control) && !is_told(evaluation.check)) return;
+    add(name, unit, [=](const CheckpointFigures& f) { return scale * (f.*value).value_or(none); });
+  };
+  const auto count = [](const std::optional<CheckpointFigures>& f) {
+    return Cell::count(f ? f->count : 0);
+  };
+  table.add_row({"points", "", count(evaluation.control), count(evaluation.check)});
+  add_cm("horizontal, rmse", &CheckpointFigures::rmse_horizontal_m);
+  add_cm("horizontal, 95 %", &CheckpointFigures::p95_horizontal_m);
+  add_cm("vertical, rmse", &CheckpointFigures::rmse_vertical_m);
+  add_cm("vertical, 95 %", &CheckpointFigures::p95_vertical_m);
+  add_cm("in space, rmse", &CheckpointFigures::rmse_3d_m);
+  add_cm("the survey itself, horizontal", &CheckpointFigures::survey_horizontal_m);
+  add_cm("the survey itself, vertical", &CheckpointFigures::survey_vertical_m);
+  add_if_told("horizontal, weighted by the survey's variances", "cm", 100,
+              &CheckpointFigures::weighted_horizontal_m);
+  add_if_told("vertical, weighted by the survey's variances", "cm", 100,
+              &CheckpointFigures::weighted_vertical_m);
+  add_if_told("residual over deviation, horizontal: about 1 where the survey explains it", "", 1,
+              &CheckpointFigures::normalised_horizontal);
+  add_if_told("residual over deviation, vertical", "", 1, &CheckpointFigures::normalised_vertical);
   return table;
 }
 
