@@ -53,7 +53,7 @@ times they are 0.24 us apart, and that decides between two poses that are equall
 a line, or that stand still, leave a rotation of the alignment open: then the errors of position are
 shown, those of rotation only after alignment at the first pose. The definitions are
 those of evo: translation is its trans_part, rotation its rot_part, point-distance-ratio its
-point_distance_error_ratio. Without --relation the table shows translation and angle-deg, without
+point_distance_error_ratio; relative errors by length those of rpg_trajectory_evaluation. Without --relation the table shows translation and angle-deg, without
 --rpe the error over one frame. KITTI drift and path figures are of the estimate as it is, not
 aligned. Of trajectories of more than 65,536 poses what does not fit lies in a file without a name
 in $TMPDIR or /tmp, 96 bytes a pose, until the program ends.)";
@@ -64,6 +64,7 @@ struct EvaluateArguments {
   dataset::TrajectoryChoice choice;  ///< of the estimate; its format is that of both files
   std::optional<TrajectoryFormat> reference_format;
   std::string reference_topic;
+  std::string reference_columns;
   std::optional<double> from_s;  ///< poses before are left out, of both files
   std::optional<double> to_s;    ///< and those after
   std::optional<fs::path> checkpoints;
@@ -147,8 +148,10 @@ void require_sensible(const EvaluateArguments& arguments) {
   if (!arguments.reference && !arguments.checkpoints && !is_run(arguments.estimate)) {
     throw CLI::ValidationError(
         "--reference",
-        "or --checkpoints is needed unless ESTIMATE is a run folder; without either "
-        "`traverse import` tells what poses alone can: how sharp their map is");
+        "or --checkpoints is needed unless ESTIMATE is a run folder. Without either there is still: "
+        "how sharp the map of the poses is (MME; `traverse import` and `run`), how well loops agree "
+        "with them (a preset with slam.use=true: loops.csv), and whether repeats give the same "
+        "(`repeats` in a batch's plan)");
   }
   if (arguments.from_s && arguments.to_s && *arguments.to_s < *arguments.from_s) {
     throw CLI::ValidationError("--to", "is before --from");
@@ -303,6 +306,7 @@ void evaluate_at_checkpoints(const EvaluateArguments& arguments) {
   if (!arguments.point.empty()) {
     options.p_body = {arguments.point[0], arguments.point[1], arguments.point[2]};
   }
+  options.time_offset_s = -arguments.options.association.time_offset_s;
   const evaluation::CheckpointEvaluation result = evaluation::evaluate_checkpoints(
       estimate, evaluation::read_checkpoints(*arguments.checkpoints), options);
   fmt::print("{}", evaluation::to_table(result));
@@ -332,10 +336,12 @@ void evaluate(const EvaluateArguments& arguments) {
   const dataset::TrajectoryChoice of_reference{
       arguments.reference_format.value_or(is_run(arguments.estimate) ||
                                                   !arguments.choice.columns.empty() ||
-                                                  !arguments.choice.topic.empty()
+                                                  !arguments.choice.topic.empty() ||
+                                                  !arguments.reference_columns.empty() ||
+                                                  !arguments.reference_topic.empty()
                                               ? TrajectoryFormat::kAuto
                                               : arguments.choice.format),
-      "", arguments.reference_topic};
+      arguments.reference_columns, arguments.reference_topic};
   const ReadTrajectory reference(reference_file, of_reference, arguments);
   evaluation::Evaluation evaluation =
       evaluation::evaluate(estimate.view(), reference.view(), options);
@@ -391,6 +397,10 @@ void add_evaluate(CLI::App& app) {
       .add_option("--columns", arguments->choice.columns,
                   "of an estimate in a CSV file: t,x,y,z,qx,qy,qz,qw in their order, or t=NAME,...")
       ->type_name("NAMES");
+  command
+      .add_option("--reference-columns", arguments->reference_columns,
+                  "of a reference in a CSV file, likewise")
+      ->type_name("NAMES");
   command.add_option("--topic", arguments->choice.topic, "of an estimate in a bag")
       ->type_name("TOPIC");
   command.add_option("--reference-topic", arguments->reference_topic, "of a reference in a bag")
@@ -403,7 +413,8 @@ void add_evaluate(CLI::App& app) {
   command
       .add_option("--checkpoints", arguments->checkpoints,
                   "surveyed points in place of a reference: a CSV file with name, stamp_s (or "
-                  "from_s, to_s, or the number of a stop), e_m, n_m, h_m, sigma_m, use")
+                  "from_s, to_s, or the number of a stop), e_m, n_m, h_m, sigma_m, use; a prism's "
+                  "or a receiver's places without names")
       ->type_name("FILE")
       ->check(CLI::ExistingFile);
   command
@@ -449,6 +460,15 @@ void add_evaluate(CLI::App& app) {
                   "poses from the start of one stretch of the KITTI drift to the next")
       ->check(count_from_one())
       ->capture_default_str();
+  command
+      .add_option(
+          "--sub-trajectories", options.sub_trajectory_lengths_m,
+          "lengths of the stretches of rpg_trajectory_evaluation's relative errors; else 10 "
+          "to 50 % of the reference")
+      ->type_name("METRES,...")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(0.01, 1e7).description(""));
   command
       .add_option("--json", arguments->json,
                   "write every figure with the values behind it to this file")

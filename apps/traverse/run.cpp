@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <new>
 #include <optional>
@@ -17,6 +18,7 @@
 
 #include "traverse/config/settings.hpp"
 #include "traverse/dataset/trajectory_files.hpp"
+#include "traverse/evaluation/checkpoints.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/number_text.hpp"
@@ -230,6 +232,23 @@ pipeline::RunOptions run_options(const RunArguments& arguments,
   return options;
 }
 
+/// Writes the residuals at surveyed points; these are read at once, so that what is wrong with them
+/// is told before the run.
+std::function<void(const geometry::Trajectory&, const pipeline::RunFolder&)> writer_of_checkpoints(
+    const RunArguments& arguments) {
+  evaluation::CheckpointOptions options;
+  if (!arguments.point.empty()) {
+    options.p_body = {arguments.point[0], arguments.point[1], arguments.point[2]};
+  }
+  options.time_offset_s = arguments.points_time_offset_s;
+  return [options, points = evaluation::read_checkpoints(*arguments.checkpoints)](
+             const geometry::Trajectory& T_map_body, const pipeline::RunFolder& folder) {
+    files::write_text(
+        folder.path / evaluation::kCheckpointsFile,
+        evaluation::to_json(evaluation::evaluate_checkpoints(T_map_body, points, options)));
+  };
+}
+
 /// With `-o .` the working directory is replaced: this program enters it again, and the user's
 /// shell has to.
 class WorkingDirectory {
@@ -384,6 +403,22 @@ void add_run_folder_options(CLI::App& command, RunArguments& arguments) {
       // Without a description: of --help the list of all codes would be the longest part.
       ->check(CLI::IsMember(contradiction_codes()).description(""))
       ->allow_extra_args(false);
+  command
+      .add_option("--checkpoints", arguments.checkpoints,
+                  "surveyed points, a prism that was followed or fixes: a CSV file as of evaluate")
+      ->type_name("FILE")
+      ->check(CLI::ExistingFile);
+  command
+      .add_option("--point", arguments.point,
+                  "what stood over the checkpoints, in the body: an antenna, a prism")
+      ->type_name("X,Y,Z")
+      ->delimiter(',')
+      ->expected(3);
+  command
+      .add_option("--points-time-offset", arguments.points_time_offset_s,
+                  "added to the stamps of the checkpoints")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(-9.2e9, 9.2e9).description(""));
   command.add_flag("!--no-report", arguments.report, "no pictures and no report.html");
   add_budget_option(command, arguments.budget);
   command.add_flag("--private", arguments.is_private,
@@ -411,6 +446,7 @@ void make_run(RunArguments& arguments, const std::vector<std::string>& command) 
   pipeline::RunOptions options = run_options(arguments, command);
   options.statements = arguments.recording.lasting_statements();
   options.place = destination.given();
+  if (arguments.checkpoints) options.also_write = writer_of_checkpoints(arguments);
 
   RunStage stage;
   const OrderlyStop stop([&] { return stage.on_stop(); });

@@ -43,6 +43,9 @@ struct RunArguments {
   bool utm = false;
   bool las = false;
   std::optional<std::filesystem::path> budget;
+  std::optional<std::filesystem::path> checkpoints;  ///< surveyed points, a prism, fixes
+  std::vector<double> point;  ///< what stood over them, body frame; empty: the body's origin
+  double points_time_offset_s = 0;
   bool hash = true;
   bool bench_factors = false;
   bool force = false;

@@ -66,17 +66,42 @@ function paintBoxes(boxes) {
   };
 }
 
+// What a box stands for, and which of them a run belongs to.
+function boxesOf(boxesBy) {
+  const names = boxesBy === "pipeline" ? data.pipelines : data.variants.map((variant) => variant.name);
+  return { names, of: (run) => (boxesBy === "pipeline" ? data.pipelines.indexOf(data.variants[run.variant].pipeline) : run.variant) };
+}
+
 function drawBoxes(metricIndex, boxesBy, groupsBy, scale) {
-  const figure = document.getElementById("boxes");
   const metric = data.metrics[metricIndex];
-  const boxNames = boxesBy === "pipeline" ? data.pipelines : data.variants.map((variant) => variant.name);
-  const boxOfRun = (run) => (boxesBy === "pipeline" ? data.pipelines.indexOf(data.variants[run.variant].pipeline) : run.variant);
+  const boxes = boxesOf(boxesBy);
   const groupNames = groupsBy === "all" ? ["all recordings"] : data.recordings;
-  const groups = groupNames.map(() => boxNames.map(() => []));
+  const groups = groupNames.map(() => boxes.names.map(() => []));
   for (const run of okRuns(null, null)) {
     const value = run.values[metricIndex];
-    if (value !== null) groups[groupsBy === "all" ? 0 : run.recording][boxOfRun(run)].push(value);
+    if (value !== null) groups[groupsBy === "all" ? 0 : run.recording][boxes.of(run)].push(value);
   }
+  drawGroups(document.getElementById("boxes"), metric, groups, groupNames, boxes.names, scale);
+}
+
+function drawLengths(lengths, boxesBy, scale) {
+  const figure = document.getElementById("length-boxes");
+  const kitti = lengths === "kitti";
+  const all = kitti ? data.lengths.kitti_m.map((metres) => `${metres} m`) : data.lengths.share_percent.map((share) => `${share} %`);
+  const first = kitti ? 0 : data.lengths.kitti_m.length;
+  const boxes = boxesOf(boxesBy);
+  const groups = all.map((name, k) => {
+    const group = boxes.names.map(() => []);
+    for (const run of okRuns(null, null)) {
+      const value = run.drift?.[first + k] ?? null;
+      if (value !== null) group[boxes.of(run)].push(value);
+    }
+    return { name, group };
+  }).filter(({ group }) => group.some((values) => values.length));
+  drawGroups(figure, { title: "Drift", unit: "%" }, groups.map(({ group }) => group), groups.map(({ name }) => name), boxes.names, scale);
+}
+
+function drawGroups(figure, metric, groups, groupNames, boxNames, scale) {
   const all = groups.flat(2);
   if (!all.length) {
     say(figure, `No run that is ok has ${metric.title}.`);
@@ -210,6 +235,7 @@ const views = [
   { needs: ["recording"], draw: () => drawRecording(Number(choice.recording)) },
   { needs: ["variant"], draw: () => drawPipeline(Number(choice.variant)) },
   { needs: ["metric", "boxes", "groups", "scale"], draw: () => drawBoxes(Number(choice.metric), choice.boxes, choice.groups, choice.scale) },
+  { needs: ["lengths", "boxes", "scale"], draw: () => drawLengths(choice.lengths, choice.boxes, choice.scale) },
   { needs: ["parameter", "metric"], draw: () => choice.parameter && drawSweep(choice.parameter, Number(choice.metric)) },
 ];
 function redraw(changed) {
@@ -225,6 +251,7 @@ fill("parameter", [...gridParameters().keys()].map((key) => [key, key]));
 fill("boxes");
 fill("groups");
 fill("scale");
+fill("lengths");
 drawLeaderboard();
 drawFront();
 drawBaseline();

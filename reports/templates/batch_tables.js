@@ -78,8 +78,8 @@ for (const run of data.runs) {
 }
 function whyMissing(recording, variant) {
   const run = badByPlace.get(`${recording} ${variant}`);
-  if (!run) return { value: null };
-  return { value: null, html: `<a href="${escapeHtml(run.folder)}/${run.report ? "report.html" : "log.txt"}">${escapeHtml(run.outcome)}</a>` };
+  if (!run || run.folder === null) return run ? { value: null, html: escapeHtml(run.outcome) } : { value: null };
+  return { value: null, html: `<a href="${escapeHtml(run.folder)}/${run.report ? "report.html" : data.logs ? "log.txt" : "run.json"}">${escapeHtml(run.outcome)}</a>` };
 }
 
 function drawMatrix(metric) {
@@ -123,7 +123,7 @@ function drawRuns() {
       { value: run.outcome ?? "not made", html: `<span class="outcome ${run.outcome === "ok" || run.outcome === "degraded" ? run.outcome : "bad"}">${escapeHtml(run.outcome ?? "not made")}</span>` },
       ...run.values.map((value, k) => ({ value, className: data.budgets.some((budget) => budget.metric === data.metrics[k].key && value !== null && (data.metrics[k].higher ? value < budget.most : value > budget.most)) ? "over" : "" })),
       { value: run.folder ?? "", html: run.folder === null ? "–"
-        : `<a href="${escapeHtml(run.folder)}/${run.report ? "report.html" : "run.json"}">${run.report ? "report" : "run.json"}</a> · <a href="${escapeHtml(run.folder)}/log.txt">log</a>` }],
+        : `<a href="${escapeHtml(run.folder)}/${run.report ? "report.html" : "run.json"}">${run.report ? "report" : "run.json"}</a>${data.logs ? ` · <a href="${escapeHtml(run.folder)}/log.txt">log</a>` : ""}` }],
   }));
   drawTable("runs", "Runs", [{ head: "Recording", name: true }, { head: "Pipeline", name: true }, { head: "Repeat", numeric: true, count: true }, { head: "Outcome" },
     ...data.metrics.map((metric) => ({ head: withUnit(metric), numeric: true, lower: metric.lower })), { head: "Files" }], rows, { atFirst: RUNS_AT_FIRST });

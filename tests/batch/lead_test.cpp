@@ -13,6 +13,7 @@
 #include "traverse/files/atomic_file.hpp"
 
 #include "batch/made_plan.hpp"
+#include "results/ranking.hpp"
 
 namespace traverse::batch {
 namespace {
@@ -55,7 +56,8 @@ class Leads : public ::testing::Test {
   std::optional<Lead> lead() const {
     Results results(jobs_);
     for (const Completion& completion : completions_) results.add(completion);
-    return find_lead(kApe, results, summarise(results, {}, kApe), folder_);
+    return find_lead(kApe, results, summarise(results, {}, kApe),
+                     [this](const Job& job) { return folder_.run(job.id); });
   }
 
   testing::TemporaryFolder temporary_;
@@ -141,6 +143,25 @@ TEST_F(Leads, WithoutTheErrorsOfTheRunsThereIsNoInterval) {
   std::filesystem::remove(folder_.run(jobs_[0].id) / "evaluation.json");
   EXPECT_FALSE(lead()->is_sure());
   EXPECT_THAT(to_text(*lead()), HasSubstr("no interval"));
+}
+
+TEST_F(Leads, OfFewRecordingsTheRankingTellsWhatDiffersAlongThem) {
+  add("a", "floam", [](std::size_t i) { return 0.05 * std::sin(0.7 * static_cast<double>(i)); });
+  add("a", "loam", [](std::size_t i) { return 0.0501 * std::sin(0.9 * static_cast<double>(i)); });
+  add("a", "bad", [](std::size_t i) { return 0.5 * std::sin(0.7 * static_cast<double>(i)); });
+  Results results(jobs_);
+  for (const Completion& completion : completions_) results.add(completion);
+  const auto ranking =
+      rank_variants(results, kApe, [this](const Job& job) { return folder_.run(job.id); });
+  ASSERT_EQ(ranking->variants.size(), 3U);
+  const auto& bad = ranking->variants[2];
+  EXPECT_EQ(bad.variant, "bad");
+  EXPECT_FALSE(ranking->variants[0].over_first);
+  EXPECT_GT(bad.over_first->low, 0);
+  EXPECT_EQ(ranking->variants[0].letters, ranking->variants[1].letters);
+  EXPECT_NE(ranking->variants[0].letters, bad.letters);
+  EXPECT_FALSE(bad.interval) << "of mean ranks there is none for one recording";
+  EXPECT_FALSE(rank_variants(results, kApe)->variants[2].over_first) << "without the runs";
 }
 
 }  // namespace

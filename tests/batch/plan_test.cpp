@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -10,6 +11,7 @@
 
 #include "traverse/batch/local_executor.hpp"
 #include "traverse/files/input_error.hpp"
+#include "traverse/files/text_file.hpp"
 
 #include "batch/made_plan.hpp"
 
@@ -226,6 +228,50 @@ TEST(Plan, ARecipeIsACommandWithTheEntrysOwnKeysOverIt) {
   } catch (const files::InputError& error) {
     EXPECT_EQ(error.place().text, "line 3");
     EXPECT_THAT(error.expected(), ::testing::HasSubstr("a recipe of: kiss-icp"));
+  }
+}
+
+/// What the installed plans for the field's data sets say without the data: all that is missing.
+TEST(Plans, OfDataSetsAreReadAndNameWhatIsMissing) {
+  const std::filesystem::path share = TRAVERSE_SHARE_DIR;
+  for (const auto& [name, first, last] :
+       {std::tuple{"kitti_odometry", "sequences/00", "sequences/10"},
+        std::tuple{"mulran", "DCC01", "Sejong03"},
+        std::tuple{"newer_college", "01_short_experiment", "07_parkland_mound"}}) {
+    SCOPED_TRACE(name);
+    const std::filesystem::path file = share / "batches" / (std::string(name) + ".yaml");
+    const testing::TemporaryFolder folder;  // where the data are not
+    std::filesystem::create_directories(folder / "share/batches");
+    std::filesystem::create_directory_symlink(share / "recordings", folder / "share/recordings");
+    std::filesystem::copy_file(file, folder / "share/batches/plan.yaml");
+    try {
+      load_plan(folder / "share/batches/plan.yaml", share, no_error);
+      FAIL() << "the data are not there";
+    } catch (const files::InputError& error) {
+      EXPECT_THAT(error.what(), AllOf(HasSubstr("that is there"), HasSubstr(first)));
+      if (std::string(name) != "mulran") {
+        EXPECT_THAT(error.what(), HasSubstr(last));
+      }
+    }
+    const std::string text = files::read_text(file);  // and with data in those places
+    std::size_t at = 0;
+    std::size_t recordings = 0;
+    while ((at = text.find("../../build/data/", at)) != std::string::npos) {
+      const std::size_t end = text.find_first_of("\n}", at);
+      const std::filesystem::path place = folder / "share/batches" / text.substr(at, end - at);
+      const auto path = place.lexically_normal();
+      if (path.extension() == ".csv") {
+        std::filesystem::create_directories(path.parent_path());
+        files::write_text(path, "");
+      } else {
+        std::filesystem::create_directories(path);
+        ++recordings;
+      }
+      at = end;
+    }
+    const Plan plan = load_plan(folder / "share/batches/plan.yaml", share, no_error);
+    EXPECT_EQ(plan.recordings.size(), recordings);
+    EXPECT_EQ(plan.pipelines.size(), 3U);
   }
 }
 

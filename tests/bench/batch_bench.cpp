@@ -18,6 +18,7 @@
 #include "traverse/batch/local_executor.hpp"
 #include "traverse/batch/metric.hpp"
 #include "traverse/batch/results.hpp"
+#include "traverse/files/atomic_file.hpp"
 
 #include "results/report.hpp"
 #include "temporary_folder.hpp"
@@ -94,6 +95,57 @@ void write_results(benchmark::State& state) {
                                         std::string(TRAVERSE_SOURCE_DIR) + "/reports/templates"));
   }
 }
+/// The page of 20 systems x 30 recordings x so many repeats; `TRAVERSE_BENCH_PAGES=FOLDER` keeps
+/// it.
+void page_of_many(benchmark::State& state) {
+  Plan plan;
+  plan.file = "many.yaml";
+  plan.metrics = default_metrics();
+  plan.recordings.resize(30);
+  plan.pipelines.resize(20);
+  std::vector<Job> jobs;
+  std::vector<Completion> completions;
+  for (std::size_t r = 0; r < plan.recordings.size(); ++r) {
+    plan.recordings[r].name = "recording " + std::to_string(r);
+    for (std::size_t p = 0; p < plan.pipelines.size(); ++p) {
+      plan.pipelines[p].name = "system " + std::to_string(p);
+      for (int repeat = 1; repeat <= state.range(0); ++repeat) {
+        Job job;
+        job.recording = plan.recordings[r].name;
+        job.pipeline = plan.pipelines[p].name;
+        job.repeat = repeat;
+        job.id = std::to_string(jobs.size()) + std::string(60, 'a');
+        Completion completion = full_completion(job);
+        for (auto& [key, value] : completion.metrics) {
+          value = 0.01 * static_cast<double>(1 + (7 * r + 13 * p + jobs.size() % 11) % 97);
+        }
+        if (jobs.size() % 41 == 40) {
+          completion.outcome = Outcome::kFailed;
+          completion.reason = "no scan fits the map";
+          completion.last_lines = {"one", "two"};
+        }
+        completions.push_back(std::move(completion));
+        jobs.push_back(std::move(job));
+      }
+    }
+  }
+  Results results(jobs);
+  for (const Completion& completion : completions) results.add(completion);
+  const std::optional<BaselineComparison> baseline;
+  std::string page;
+  for (auto _ : state) {
+    const auto variants = summarise(results, plan.budgets, plan.metrics.front());
+    page = batch_page({plan, results, variants, baseline, {}, {}, {}},
+                      std::string(TRAVERSE_SOURCE_DIR) + "/reports/templates");
+  }
+  state.counters["megabytes"] = static_cast<double>(page.size()) / 1e6;
+  if (const char* folder = std::getenv("TRAVERSE_BENCH_PAGES")) {
+    files::write_text(std::filesystem::path(folder) / (std::to_string(jobs.size()) + ".html"),
+                      page);
+  }
+}
+BENCHMARK(page_of_many)->Arg(1)->Arg(5)->Unit(benchmark::kMillisecond)->Iterations(1);
+
 BENCHMARK(write_results)->Arg(1000)->Arg(10000)->Unit(benchmark::kMillisecond)->Iterations(1);
 
 }  // namespace

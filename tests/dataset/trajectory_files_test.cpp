@@ -264,6 +264,42 @@ std::string drive(const std::string& separator, bool is_w_first, double turn, st
   return text;
 }
 
+TEST(TrajectoryFiles, UnixTimesMayStandBeforeTheMatrix) {
+  const testing::TemporaryFolder folder;
+  files::write_text(folder / "global_pose.csv",
+                    "1567496784952532897,1,0,0,350000.5,0,1,0,4000000,0,0,1,20\n"
+                    "1567496784962532897,1,0,0,350001,0,1,0,4000000,0,0,1,20\n");
+  TrajectoryReading reading;
+  const Trajectory poses =
+      read_trajectory(folder / "global_pose.csv", TrajectoryFormat::kAuto, &reading);
+  EXPECT_EQ(describe(reading), "KITTI, 12 columns after a time, commas between");
+  ASSERT_EQ(poses.size(), 2U);
+  ASSERT_TRUE(poses.is_stamped());
+  EXPECT_EQ(poses.stamp(0).nanoseconds, 1567496784952532897);
+  EXPECT_EQ(poses.pose(0).translation.x(), 350000.5);
+  files::write_text(folder / "mixed.csv",
+                    "1567496784952532897,1,0,0,0,0,1,0,0,0,0,1,0\n7,1,0,0,0,0,1,0,0,0,0,1,0\n");
+  EXPECT_THROW(read_trajectory(folder / "mixed.csv", TrajectoryFormat::kAuto), files::InputError);
+}
+
+TEST(TrajectoryFiles, SecondsAndNanosecondsMayStandInTwoColumns) {
+  const testing::TemporaryFolder folder;
+  files::write_text(folder / "registered_poses.csv",
+                    "#sec,nsec,x,y,z,qx,qy,qz,qw\n1583836591,182590976,1,2,3,0,0,0,1\n"
+                    "1583836591,282613760,1,2,4,0,0,0,1\n");
+  const Trajectory poses =
+      read_trajectory(folder / "registered_poses.csv", TrajectoryFormat::kAuto);
+  ASSERT_EQ(poses.size(), 2U);
+  EXPECT_EQ(poses.stamp(0).nanoseconds, 1583836591182590976);
+  EXPECT_EQ(poses.stamp(1).nanoseconds, 1583836591282613760);
+  files::write_text(folder / "bare.csv", "1583836591,182590976,1,2,3,0,0,0,1\n");
+  const TrajectoryChoice named{TrajectoryFormat::kAuto, "sec,nsec,x,y,z,qx,qy,qz,qw", ""};
+  EXPECT_EQ(read_trajectory(folder / "bare.csv", named).stamp(0).nanoseconds, 1583836591182590976);
+  files::write_text(folder / "wrong.csv",
+                    "sec,nsec,x,y,z,qx,qy,qz,qw\n1583836591,1182590976,1,2,3,0,0,0,1\n");
+  EXPECT_THROW(read_trajectory(folder / "wrong.csv", TrajectoryFormat::kAuto), files::InputError);
+}
+
 TEST(TrajectoryFiles, QuaternionsInTheOtherOrderAreFound) {
   for (const double turn : {0.8, 3.0, -6.0}) {
     for (const std::size_t poses : {120U, 3000U}) {

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <map>
 #include <memory>
+#include <random>
 #include <string>
 #include <thread>
 #include <vector>
@@ -134,6 +135,99 @@ TEST_F(BatchCommands, AKilledBatchLeavesNoProgramBehindAndLosesNothing) {
   for (const auto& entry : fs::directory_iterator(folder_ / "out/runs")) {
     EXPECT_FALSE(entry.path().filename().string().starts_with(".")) << entry.path();
   }
+}
+
+/// Kills the batch six times at moments that a fixed seed draws.
+TEST_F(BatchCommands, KilledAtRandomMomentsLosesNothing) {
+  files::write_text(folder_ / "slow.sh", "sleep 0.2\n" + files::read_text(folder_ / "right.sh"));
+  const std::string plan = R"(pipelines:
+  - {name: right, command: "sh {plan}/right.sh {recording}", trajectory: poses.txt, frame: body}
+  - {name: slow, command: "sh {plan}/slow.sh {recording}", trajectory: poses.txt, frame: body}
+  - name: kitti
+    command: "sh {plan}/kitti.sh {format:kitti} {recording}"
+    trajectory: results/latest/*.txt
+    frame: body
+recordings: [{simulate: town_short, arguments: {sensor: vlp16, first: 80, duration: 0.6}}]
+repeats: 3
+reports: false
+limits: {time_s: 60, attempts: 20}
+)";
+  files::write_text(folder_ / "plan.yaml", plan);
+  std::mt19937 random(20261201);
+  for (int kill = 0; kill < 6; ++kill) {
+    BatchProcess process(folder_ / "plan.yaml", folder_ / "out");
+    std::this_thread::sleep_for(std::chrono::milliseconds(50 + random() % 350));
+  }  // whose end kills
+  const ProgramResult rest = batch(plan, "out");
+  EXPECT_EQ(rest.status, 0) << rest.everything();
+  EXPECT_THAT(rest.output, HasSubstr("9 of 9 runs are ok"));
+  ASSERT_EQ(batch(plan, "undisturbed").status, 0);
+  EXPECT_EQ(testing::comparable_results(folder_ / "out"),
+            testing::comparable_results(folder_ / "undisturbed"));
+  EXPECT_EQ(programs_of("out"), 0U);
+  for (const auto& entry : fs::directory_iterator(folder_ / "out/runs")) {
+    EXPECT_FALSE(entry.path().filename().string().starts_with(".")) << entry.path();
+  }
+}
+
+/// A stand-in for podman: it has the image "known" and starts the command in a session of its own,
+/// as a container is not in the group of what started it.
+TEST_F(BatchCommands, RunInAContainerWherePodmanIs) {
+  fs::create_directory(folder_ / "bin");
+  files::write_text(folder_ / "digest", "sha256:one");
+  files::write_text(folder_ / "bin/podman",
+                    "#!/bin/sh\necho \"$@\" >> '" + (folder_ / "podman.log").string() +
+                        "'\n"
+                        "if [ \"$1 $2\" = 'image inspect' ]; then\n"
+                        "  [ \"$5\" = known ] || exit 125\n"
+                        "  echo sha256:id $(cat '" +
+                        (folder_ / "digest").string() +
+                        "')\n  exit\nfi\n"
+                        "while [ \"$1\" != sha256:id ]; do shift; done\nshift\n"
+                        "exec setsid --wait \"$@\"\n");
+  fs::permissions(folder_ / "bin/podman", fs::perms::owner_all);
+  const std::string with_podman =
+      "PATH='" + (folder_ / "bin").string() + "':\"$PATH\" " + TRAVERSE_PROGRAM;
+  const auto plan = [](const std::string& image) {
+    return R"(pipelines:
+  - name: contained
+    container: )" +
+           image + R"(
+    command: "(head -c 60000000 /dev/zero; sleep 0.3) | tail -c 60000000 > big; sh {plan}/right.sh {recording}"
+    trajectory: poses.txt
+    frame: body
+recordings: [{simulate: town_short, arguments: {sensor: vlp16, first: 80, duration: 0.6}}]
+reports: false
+)";
+  };
+  const auto made = [&](const std::string& text, const std::string& options,
+                        const std::string& program) {
+    files::write_text(folder_ / "plan.yaml", text);
+    return run_program("batch " + (folder_ / "plan.yaml").string() + options, program);
+  };
+  const std::string out = " -o " + (folder_ / "out").string();
+  const ProgramResult first = made(plan("known"), out, with_podman);
+  ASSERT_EQ(first.status, 0) << first.everything();
+  const std::string told = files::read_text(folder_ / "podman.log");
+  EXPECT_THAT(told, HasSubstr("run --rm --pull=never --volume " + folder_.path().string() + ":" +
+                              folder_.path().string() + ":ro"));
+  EXPECT_THAT(told, HasSubstr("--env TRAVERSE_BATCH_WORK --env OMP_NUM_THREADS sha256:id /bin/sh"));
+  EXPECT_GT(figure(runs_of("out")["contained"][0], "peak_memory_mb"), 50)
+      << "what the container takes counts";
+  EXPECT_THAT(made(plan("known"), out, with_podman).output, HasSubstr("0 made now"));
+  files::write_text(folder_ / "digest", "sha256:two");  // another image of that name
+  EXPECT_THAT(made(plan("known"), out, with_podman).output, HasSubstr("1 made now"));
+
+  EXPECT_THAT(made(plan("unknown"), " --check", with_podman).messages,
+              HasSubstr("line 3: expected an image that podman has here (podman pull unknown)"));
+  fs::create_directory(folder_ / "empty");
+  const std::string with_nothing =
+      "PATH='" + (folder_ / "empty").string() + "' " + TRAVERSE_PROGRAM;
+  EXPECT_THAT(made(plan("known"), " --check", with_nothing).messages,
+              HasSubstr("line 3: expected podman in the PATH"));
+  files::write_text(folder_ / "image.sif", "an image");
+  EXPECT_THAT(made(plan("image.sif"), " --check", with_nothing).messages,
+              HasSubstr("line 3: expected apptainer in the PATH"));
 }
 
 TEST_F(BatchCommands, AWrongCommandIsToldWithItsLine) {

@@ -1,6 +1,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <random>
 #include <string>
 #include <sys/wait.h>
 #include <thread>
@@ -138,6 +139,37 @@ TEST_F(BatchOnSlurm, ProgramsThatAreNotOursGiveTheSameRows) {
   EXPECT_EQ(std::erase_if(on_cluster, is_chance), 1U);
   EXPECT_EQ(std::erase_if(here, is_chance), 1U);
   EXPECT_EQ(on_cluster, here);
+}
+
+/// The command that waits is killed at moments that a fixed seed draws.
+TEST_F(BatchOnSlurm, ProgramsThatAreNotOursLoseNothingWhenItIsKilled) {
+  testing::write_stand_in_systems(folder_.path());
+  const std::string plan = R"(pipelines:
+  - {name: right, command: "sh {plan}/right.sh {recording}", trajectory: poses.txt, frame: body}
+  - name: kitti
+    command: "sh {plan}/kitti.sh {format:kitti} {recording}"
+    trajectory: results/latest/*.txt
+    frame: body
+recordings: [{simulate: town_short, arguments: {sensor: vlp16, first: 80, duration: 0.6}}]
+repeats: 2
+reports: false
+limits: {time_s: 60}
+)";
+  files::write_text(folder_ / "plan.yaml", plan);
+  std::mt19937 random(20261202);
+  const std::string rest = "batch " + (folder_ / "plan.yaml").string() + " -o " +
+                           (folder_ / "cluster").string() + " --executor slurm";
+  for (int kill = 0; kill < 2; ++kill) {
+    const auto ms = 200 + random() % 800;
+    run_program(
+        "-s KILL 0." + std::to_string(1000 + ms).substr(1) + " " + TRAVERSE_PROGRAM + " " + rest,
+        "timeout");
+  }
+  const ProgramResult last = run_program(rest);
+  EXPECT_EQ(last.status, 0) << last.everything();
+  EXPECT_THAT(last.output, HasSubstr("4 of 4 runs are ok"));
+  ASSERT_EQ(batch(plan, "local", "").status, 0);
+  EXPECT_EQ(comparable_results(folder_ / "cluster"), comparable_results(folder_ / "local"));
 }
 
 }  // namespace

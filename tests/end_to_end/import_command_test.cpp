@@ -1,3 +1,4 @@
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -75,6 +76,91 @@ TEST_F(ImportCommand, MakesARunThatTheOtherCommandsTake) {
       run_program("compare " + at("other") + " " + at("run") + " -o " + at("page.html"));
   EXPECT_EQ(compared.status, 0) << compared.everything();
   EXPECT_EQ(run_program("evaluate " + at("run") + " --rpe 1f").status, 0);
+}
+
+TEST_F(ImportCommand, RunsOfSeveralRecordingsAreOnePage) {
+  testing::make_kitti_folder(folder_ / "second", kScans + 18);
+  std::string far;   // the same drive, half as long again
+  std::string near;  // and of one that is off by a centimetre now and then
+  for (std::size_t i = 0; i < kScans + 18; ++i) {
+    const double x = 0.5 * static_cast<double>(i);
+    far += fmt::format("1 0 0 {} 0 1 0 {} 0 0 1 0\n", x, 0.3 * std::sin(0.9 * x));
+    near += fmt::format("1 0 0 {} 0 1 0 {} 0 0 1 0\n", x, 0.01 * std::sin(0.9 * x));
+  }
+  files::write_text(folder_ / "far.txt", far);
+  files::write_text(folder_ / "near.txt", near);
+  std::string truth;
+  for (std::size_t i = 0; i < kScans + 18; ++i) {
+    truth += fmt::format("1 0 0 {} 0 1 0 0 0 0 1 0\n", 0.5 * static_cast<double>(i));
+  }
+  files::write_text(folder_ / "truth.txt", truth);
+  const auto run = [&](const std::string& poses, const std::string& drive, const std::string& name,
+                       const std::string& out) {
+    const ProgramResult made =
+        run_program("import " + at(poses) + " --recording " + at(drive) + " -o '" + at(out) +
+                    "' --no-report --name " + name + " --reference " +
+                    at(drive == "drive" ? "kitti.txt" : "truth.txt"));
+    ASSERT_EQ(made.status, 0) << made.everything();
+  };
+  std::filesystem::create_directory(folder_ / "runs of all");
+  run("kitti.txt", "drive", "NEAR", "runs of all/a");
+  run("near.txt", "second", "NEAR", "runs of all/b");
+  run("far.txt", "second", "FAR", "runs of all/c");
+  const std::string runs = "compare '" + at("runs of all/a") + "' '" + at("runs of all/b") + "' '" +
+                           at("runs of all/c") + "' -o ";
+  const ProgramResult compared = run_program(runs + at("all.html"));
+  ASSERT_EQ(compared.status, 0) << compared.everything();
+  EXPECT_THAT(compared.output, HasSubstr("NEAR"));
+  const std::string page = files::read_text(folder_ / "all.html");
+  EXPECT_THAT(page, HasSubstr("more than the first"));
+  EXPECT_THAT(page, HasSubstr("poses of another program"));
+  EXPECT_THAT(page, HasSubstr("SE(3) alignment"));
+  EXPECT_THAT(page, Not(HasSubstr("id=\"sweep-chart\"")));
+  const json numbers = json::parse(files::read_text(folder_ / "all.json"));
+  EXPECT_EQ(numbers["recordings"].size(), 2U);
+  ASSERT_EQ(numbers["runs"].size(), 3U);
+  EXPECT_EQ(numbers["runs"][1]["folder"], "runs%20of%20all/b");
+  EXPECT_EQ(numbers["variants"][0]["name"], "NEAR");
+  EXPECT_THAT(files::read_text(folder_ / "all.tex"), HasSubstr("tabular"));
+  EXPECT_EQ(run_program(runs + at("all.html")).status, 0) << "its own page is replaced";
+  files::write_text(folder_ / "mine.json", "{}");
+  EXPECT_THAT(run_program(runs + at("mine.html")).messages, HasSubstr("already"));
+  EXPECT_EQ(run_program(runs + at("private.html") + " --private").status, 0);
+  EXPECT_THAT(files::read_text(folder_ / "private.html"), Not(HasSubstr(folder_.path().string())));
+}
+
+TEST_F(ImportCommand, SurveyedPointsAreInTheReport) {
+  // A bend, and a prism 1 m to the left and 7 m above, on a grid; each point is 1 cm off in height.
+  std::string bent;
+  std::string points = "name,stamp_s,e_m,n_m,h_m,sigma_m\n";
+  for (std::size_t i = 0; i < kScans; ++i) {
+    const double x = 0.5 * static_cast<double>(i);
+    const double y = 0.05 * x * x;
+    const double t = 0.1 * static_cast<double>(i);
+    bent += fmt::format("{} {} {} 0 0 0 0 1\n", t, x, y);
+    if (i % 2 == 0) {
+      points += fmt::format("P{},{},{},{},{},0.01\n", i, t, 100 + x, 200 + y + 1,
+                            i % 4 == 0 ? 7.01 : 6.99);
+    }
+  }
+  files::write_text(folder_ / "bent.tum", bent);
+  files::write_text(folder_ / "points.csv", points);
+  const std::string options = "--no-report --point 0,1,7 --checkpoints " + at("points.csv");
+  const ProgramResult line = import("poses.tum", options);
+  EXPECT_EQ(line.status, 1) << "of a straight line no alignment is determined";
+  EXPECT_THAT(line.messages, HasSubstr("at least three points that are not on one line"));
+  const ProgramResult made = import("bent.tum", options + " --force");
+  ASSERT_EQ(made.status, 0) << made.everything();
+  ASSERT_EQ(run_program("report --no-pictures " + at("run")).status, 0);
+  EXPECT_THAT(files::read_text(folder_ / "run/report.html"), HasSubstr("id=\"checkpoints\""));
+  const auto residuals = json::parse(files::read_text(folder_ / "run/checkpoints.json"));
+  EXPECT_EQ(residuals["check"]["count"], 6);
+  EXPECT_LT(residuals["check"]["rmse_vertical_m"], 0.011);
+  EXPECT_GT(residuals["check"]["rmse_vertical_m"], 0.005);
+  std::filesystem::resize_file(folder_ / "run/checkpoints.json", 100);
+  const ProgramResult cut = run_program("report --no-pictures " + at("run"));
+  EXPECT_EQ(cut.status, 1);
+  EXPECT_THAT(cut.messages, HasSubstr("checkpoints.json"));
 }
 
 TEST_F(ImportCommand, TimesThatAreToldAreShown) {

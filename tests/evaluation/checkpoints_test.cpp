@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -111,6 +112,65 @@ TEST(Checkpoints, ControlPointsAlignAndTheOthersCheck) {
         T * (drive.path.pose(100 * k + 3) * drive.p_body) - drive.points[k].p_enh;
     EXPECT_LT((found.residuals[k].residual_m - by_hand).norm(), 1e-6) << k;
   }
+}
+
+TEST(Checkpoints, APrismIsFollowedByAClockOfItsOwn) {
+  // Every tenth of a second, without names, 37.02 s early; the lever arm is needed, and the offset.
+  SurveyedDrive drive;
+  const TemporaryFolder folder;
+  std::string table = "stamp_s,e_m,n_m,h_m,sigma_e_m,sigma_n_m,sigma_h_m\n";
+  for (std::size_t i = 20; i < 220; i += 2) {
+    const Eigen::Vector3d p = drive.T_enh_map * (drive.path.pose(i) * drive.p_body);
+    const double stamp = geometry::seconds_between(Stamp{0}, drive.path.stamp(i)) - 37.02;
+    table += fmt::format("{:.9f},{:.6f},{:.6f},{:.6f},0.002,0.002,0.004\n", stamp, p.x(), p.y(),
+                         p.z() + (i % 4 == 0 ? 0.004 : -0.004));
+  }
+  files::write_text(folder / "prism.csv", table);
+  CheckpointOptions options;
+  options.p_body = drive.p_body;
+  options.time_offset_s = 37.02;
+  const auto points = read_checkpoints(folder / "prism.csv");
+  const CheckpointEvaluation found = evaluate_checkpoints(drive.path, points, options);
+  ASSERT_EQ(found.check->count, 100U);
+  EXPECT_LT(found.check->rmse_horizontal_m, 1e-4);
+  EXPECT_NEAR(found.check->rmse_vertical_m, 0.004, 1e-5);
+  EXPECT_NEAR(found.check->survey_vertical_m, 0.004, 1e-12);
+  EXPECT_NEAR(*found.check->normalised_vertical, 1, 0.01);
+  EXPECT_THAT(to_table(found), HasSubstr("the 40 largest of 100"));
+  EXPECT_THAT(to_table(found), HasSubstr("weighted by the reference's own variances"));
+  files::write_text(folder / "residuals.json", to_json(found));
+  EXPECT_EQ(to_json(read_checkpoint_evaluation(folder / "residuals.json")), to_json(found));
+  options.time_offset_s = 36.02;
+  EXPECT_GT(evaluate_checkpoints(drive.path, points, options).check->rmse_horizontal_m, 0.01);
+}
+
+TEST(Checkpoints, FixesOfAReceiverCountByTheirVariances) {
+  const TemporaryFolder folder;
+  files::write_text(
+      folder / "gnss.csv",
+      "stamp_s,latitude_deg,longitude_deg,altitude_m,heading_deg,east_m,north_m,up_m\n"
+      "1,48,11,500,,0.01,0.01,0.02\n2,48.0001,11,500,,0.01,0.01,0.02\n"
+      "3,48.0001,11.0001,500,90,1,1,2\n");
+  const auto fixes = read_checkpoints(folder / "gnss.csv");
+  ASSERT_EQ(fixes.size(), 3U);
+  EXPECT_EQ(fixes[0].p_enh.norm(), 0);
+  EXPECT_NEAR(fixes[1].p_enh.y(), 11.12, 0.01);  // a ten-thousandth of a degree of the meridian
+  EXPECT_NEAR(fixes[2].p_enh.x(), 7.46, 0.01);
+  EXPECT_EQ(fixes[2].sigma_m.z(), 2);
+  Trajectory path;
+  for (const Checkpoint& fix : fixes) {
+    Pose3 pose;
+    pose.translation = fix.p_enh;
+    if (fix.name == "3") pose.translation.x() += 1;
+    path.push_back(*fix.stamp, pose);
+  }
+  CheckpointOptions options;
+  options.alignment = AlignmentMode::kNone;
+  const auto figures = *evaluate_checkpoints(path, fixes, options).check;
+  EXPECT_NEAR(figures.rmse_horizontal_m, std::sqrt(1.0 / 3), 1e-9);
+  // By hand: weights 5000, 5000 and 0.5, of which the last has 1 m^2.
+  EXPECT_NEAR(*figures.weighted_horizontal_m, std::sqrt(0.5 / 10000.5), 1e-9);
+  EXPECT_NEAR(*figures.normalised_horizontal, std::sqrt(0.5 / 3), 1e-9);
 }
 
 TEST(Checkpoints, APointThatIsKnownBetterCountsMore) {

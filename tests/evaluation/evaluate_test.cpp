@@ -69,7 +69,8 @@ TEST(Evaluate, AShortRunListsWhatItDoesNotDefine) {
   for (const Undefined& item : c.undefined) metrics.push_back(item.metric);
   EXPECT_THAT(metrics, ElementsAre("KITTI drift", "RPE, 50 frames, all pairs of the estimate",
                                    "RPE, 100 frames, all pairs of the estimate",
-                                   "RPE, 100 m, all pairs of the estimate"));
+                                   "RPE, 100 m, all pairs of the estimate",
+                                   "relative errors over 59.92, 119.84, 179.76, 239.69, 299.61 m"));
   EXPECT_THAT(c.undefined[0].reason, HasSubstr("longer than 100 m: its path is"));
   EXPECT_EQ(c.undefined[1].reason,
             "no pair of poses is 50 frames apart: there are 30 matched poses");
@@ -129,15 +130,15 @@ TEST(Titles, SayHowAFigureWasMade) {
   const Comparison c = compare(testing::golden_estimate(), testing::golden_reference(), options);
   EXPECT_EQ(title(c.ape[0], c),
             "APE translation part, Sim(3) alignment on the first 50 poses, scale 0.979465, 514 "
-            "pairs");
+            "pairs, by evo's rule");
   EXPECT_THAT(title(c.rpe[0], c),
               HasSubstr("RPE translation part, 10 frames, consecutive pairs of the estimate, "));
-  EXPECT_THAT(title(c.rpe[0], c), HasSubstr(", 51 pairs"));
+  EXPECT_THAT(title(c.rpe[0], c), HasSubstr(", 51 pairs, by evo's rule"));
   EXPECT_EQ(describe(c.association), "514 pairs by stamp, at most 0.01 s apart");
   EXPECT_EQ(
       title(*c.kitti),
       "KITTI drift, body frame, no alignment, 131 segments of 100 to 800 m, one start every 10 "
-      "poses, 0.1 s per pose");
+      "poses, 0.1 s per pose, by the rule of KITTI's devkit");
 }
 
 TEST(Table, ShowsEveryFigureWithUnitAndOrigin) {

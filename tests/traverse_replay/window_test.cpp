@@ -7,6 +7,7 @@
 
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/text_file.hpp"
+#include "traverse/pipeline/imported_poses.hpp"
 #include "traverse/pipeline/run.hpp"
 #include "traverse/replay/recording.hpp"
 
@@ -244,6 +245,27 @@ TEST_F(WindowTest, ShowsARunButNotOneThatWasChanged) {
     EXPECT_THAT(refusing.messages(), HasSubstr("edited"));
     files::write_text(file, bytes);
   }
+}
+
+TEST_F(WindowTest, ShowsARunOfPosesThatAnotherProgramMade) {
+  const auto recording =
+      replay::Recording::open(*shared_ / "street.rawlog", testing::open_options());
+  const auto source = recording.source();
+  pipeline::RunOptions options;
+  options.last = 5;
+  pipeline::Pipeline own = recording.make_pipeline({}, 1);
+  const pipeline::RunFolder first{folder_ / "own"};
+  ASSERT_EQ(pipeline::run(*source, own, first, options, {}).status, pipeline::RunStatus::kOk);
+  source->rewind();
+  const pipeline::Preset preset = pipeline::imported_preset(
+      "OTHER", {"poses.file=" + first.trajectory().string(), "poses.frame=body"});
+  pipeline::Pipeline imported = pipeline::make_pipeline(preset, source->info(), 1);
+  const pipeline::RunFolder run{folder_ / "run"};
+  ASSERT_EQ(pipeline::run(*source, imported, run, options, {}).status, pipeline::RunStatus::kOk);
+  files::write_text(folder_ / "script", "end\nsettle\nexpect-frame 5\n");
+  WindowedProgram program(*screen_, folder_.path(),
+                          "run --headless --script script --no-index-cache");
+  EXPECT_EQ(program.exit_status(), 0) << program.messages();
 }
 
 TEST_F(WindowTest, AForeignFileGetsAMessage) {

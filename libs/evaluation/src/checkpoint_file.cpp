@@ -2,6 +2,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include "traverse/evaluation/checkpoints.hpp"
 #include "traverse/files/numbers.hpp"
 #include "traverse/files/text_file.hpp"
+#include "traverse/geodesy/local_tangent_plane.hpp"
 
 namespace traverse::evaluation {
 
@@ -21,8 +23,8 @@ namespace {
 using files::LineReader;
 
 constexpr std::string_view kCheckpointColumns =
-    "name; stamp_s, or from_s and to_s, or stop; e_m, n_m, h_m; sigma_m or sigma_e_m, sigma_n_m, "
-    "sigma_h_m; use";
+    "name; stamp_s, or from_s and to_s, or stop; e_m, n_m, h_m, or latitude_deg, longitude_deg, "
+    "altitude_m; sigma_m or sigma_e_m, sigma_n_m, sigma_h_m; use";
 
 /// A row of the table by the names of its columns.
 class CheckpointRow {
@@ -68,21 +70,31 @@ class CheckpointRow {
 
 std::map<std::string, std::size_t> columns_of(const LineReader& reader) {
   static const std::set<std::string, std::less<>> kKnown{
-      "name", "stamp_s", "from_s",    "to_s",      "stop",      "e_m", "n_m",
-      "h_m",  "sigma_m", "sigma_e_m", "sigma_n_m", "sigma_h_m", "use"};
+      "name", "stamp_s",      "from_s",        "to_s",       "stop",       "e_m",
+      "n_m",  "h_m",          "sigma_m",       "sigma_e_m",  "sigma_n_m",  "sigma_h_m",
+      "use",  "latitude_deg", "longitude_deg", "altitude_m", "heading_deg"};
+  // As the fixes of a receiver are written.
+  static const std::map<std::string, std::string, std::less<>> kOfFixes{
+      {"east_m", "sigma_e_m"}, {"north_m", "sigma_n_m"}, {"up_m", "sigma_h_m"}};
   std::map<std::string, std::size_t> columns;
   const auto cells = files::split_cells(reader.line(), ',');
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const std::string name(cells[i]);
+    std::string name(cells[i]);
+    if (const auto of_fixes = kOfFixes.find(name); of_fixes != kOfFixes.end()) {
+      name = of_fixes->second;
+    }
     if (!kKnown.contains(name) || !columns.emplace(name, i).second) {
       throw reader.error(fmt::format("a header with the columns {}", kCheckpointColumns),
                          files::in_quotes(name));
     }
   }
-  for (const char* needed : {"name", "e_m", "n_m", "h_m"}) {
-    if (columns.contains(needed)) continue;
+  const bool is_geodetic = columns.contains("latitude_deg");
+  const auto needed = is_geodetic ? std::array{"latitude_deg", "longitude_deg", "altitude_m"}
+                                  : std::array{"e_m", "n_m", "h_m"};
+  for (const char* name : needed) {
+    if (columns.contains(name)) continue;
     throw reader.error(fmt::format("a header with the columns {}", kCheckpointColumns),
-                       fmt::format("no {}", needed));
+                       fmt::format("no {}", name));
   }
   return columns;
 }
@@ -106,6 +118,31 @@ void take_moment(const CheckpointRow& row, Checkpoint& point) {
   }
 }
 
+/// Where points are told by latitude and longitude: east, north and height at the first of them.
+class PointGrid {
+ public:
+  Eigen::Vector3d place_of(const CheckpointRow& row, bool is_geodetic) {
+    if (!is_geodetic) {
+      const double e = row.number("e_m");
+      const double n = row.number("n_m");
+      const double h = row.number("h_m");
+      return {e, n, h};
+    }
+    geodesy::Geodetic place;
+    place.latitude_deg = row.number("latitude_deg");
+    place.longitude_deg = row.number("longitude_deg");
+    place.altitude_m = row.number("altitude_m");
+    if (!(std::abs(place.latitude_deg) <= 90)) {
+      throw row.error("a latitude_deg from -90 to 90", files::in_quotes(row.text("latitude_deg")));
+    }
+    if (!plane_) plane_.emplace(place);
+    return plane_->to_enu(place);
+  }
+
+ private:
+  std::optional<geodesy::LocalTangentPlane> plane_;
+};
+
 Eigen::Vector3d sigmas_of(const CheckpointRow& row) {
   if (!row.text("sigma_m").empty()) return Eigen::Vector3d::Constant(row.sigma("sigma_m"));
   if (row.text("sigma_e_m").empty()) return Eigen::Vector3d::Zero();
@@ -127,18 +164,17 @@ std::vector<Checkpoint> read_checkpoints(const std::filesystem::path& file) {
   const auto columns = columns_of(reader);
   std::vector<Checkpoint> points;
   std::set<std::string> names;
+  PointGrid grid;
   while (reader.next()) {
     const CheckpointRow row(reader, columns);
     Checkpoint point;
-    point.name = row.text("name");
+    point.name = columns.contains("name") ? std::string(row.text("name"))
+                                          : std::to_string(points.size() + 1);
     if (point.name.empty() || !names.insert(point.name).second) {
       throw reader.error("a name that no other point has", files::in_quotes(point.name));
     }
     take_moment(row, point);
-    const double e = row.number("e_m");
-    const double n = row.number("n_m");
-    const double h = row.number("h_m");
-    point.p_enh = {e, n, h};
+    point.p_enh = grid.place_of(row, columns.contains("latitude_deg"));
     point.sigma_m = sigmas_of(row);
     const std::string_view use = row.text("use");
     if (!use.empty() && use != "control" && use != "check") {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -55,6 +56,34 @@ std::optional<Eigen::Vector3d> place_of(const Checkpoint& point, const Trajector
   why = fmt::format("no poses around {} s, or more than {:g} s apart", to_text(*point.stamp),
                     options.max_gap_s);
   return std::nullopt;
+}
+
+/// Weighted figures, where every deviation is told.
+void add_weighted(const std::vector<const CheckpointResidual*>& residuals,
+                  CheckpointFigures& figures) {
+  const auto has_sigmas = [](const CheckpointResidual* one) {
+    return (one->point.sigma_m.array() > 0).all();
+  };
+  if (!std::all_of(residuals.begin(), residuals.end(), has_sigmas)) return;
+  double normalised_horizontal = 0;
+  double normalised_vertical = 0;
+  Eigen::Vector2d sums = Eigen::Vector2d::Zero();  // of weighted squares
+  Eigen::Vector2d weights = Eigen::Vector2d::Zero();
+  for (const CheckpointResidual* one : residuals) {
+    const Eigen::Vector3d& d = one->residual_m;
+    const Eigen::Vector3d& sigma = one->point.sigma_m;
+    const Eigen::Vector3d ratio = d.cwiseQuotient(sigma);
+    normalised_horizontal += ratio.head<2>().squaredNorm() / 2;
+    normalised_vertical += ratio.z() * ratio.z();
+    const Eigen::Vector2d weight(1 / sigma.head<2>().squaredNorm(), 1 / (sigma.z() * sigma.z()));
+    sums += weight.cwiseProduct(Eigen::Vector2d(d.head<2>().squaredNorm(), d.z() * d.z()));
+    weights += weight;
+  }
+  const auto count = static_cast<double>(residuals.size());
+  figures.normalised_horizontal = std::sqrt(normalised_horizontal / count);
+  figures.normalised_vertical = std::sqrt(normalised_vertical / count);
+  figures.weighted_horizontal_m = std::sqrt(sums.x() / weights.x());
+  figures.weighted_vertical_m = std::sqrt(sums.y() / weights.y());
 }
 
 double weight_of(const Checkpoint& point) {
@@ -124,6 +153,7 @@ CheckpointFigures figures_of(const std::vector<const CheckpointResidual*>& resid
   figures.p95_vertical_m = statistics::quantile(vertical, 0.95);
   figures.survey_horizontal_m = std::sqrt(figures.survey_horizontal_m);
   figures.survey_vertical_m = std::sqrt(figures.survey_vertical_m);
+  add_weighted(residuals, figures);
   return figures;
 }
 
@@ -186,6 +216,19 @@ std::vector<Stop> find_stops(const Trajectory& T_map_body) {
   return stops;
 }
 
+namespace {
+
+/// Of a prism or a receiver many points lie before and after the estimate.
+void shorten(std::vector<std::string>& notes) {
+  constexpr std::size_t kMostNotes = 10;
+  if (notes.size() <= kMostNotes) return;
+  const std::size_t more = notes.size() - kMostNotes;
+  notes.resize(kMostNotes);
+  notes.push_back(fmt::format("and {} more that are not used", more));
+}
+
+}  // namespace
+
 CheckpointEvaluation evaluate_checkpoints(const Trajectory& T_map_body,
                                           const std::vector<Checkpoint>& points,
                                           const CheckpointOptions& options) {
@@ -196,7 +239,10 @@ CheckpointEvaluation evaluate_checkpoints(const Trajectory& T_map_body,
   evaluation.alignment = options.alignment;
   const std::vector<Stop> stops = find_stops(T_map_body);
   std::vector<std::pair<Checkpoint, Eigen::Vector3d>> places;
-  for (const Checkpoint& point : points) {
+  const auto offset_ns = static_cast<std::int64_t>(std::llround(options.time_offset_s * 1e9));
+  for (Checkpoint point : points) {
+    if (point.stamp) point.stamp->nanoseconds += offset_ns;
+    if (point.until) point.until->nanoseconds += offset_ns;
     std::string why;
     if (const auto place = place_of(point, T_map_body, stops, options, why)) {
       places.emplace_back(point, *place);
@@ -204,6 +250,7 @@ CheckpointEvaluation evaluate_checkpoints(const Trajectory& T_map_body,
       evaluation.notes.push_back(fmt::format("{} is not used: {}", point.name, why));
     }
   }
+  shorten(evaluation.notes);
   if (places.empty()) {
     throw EvaluationError(
         "none of the checkpoints can be used; " +

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "traverse/evaluation/titles.hpp"
 
@@ -121,6 +122,28 @@ void add_kitti(const MatchedPoses& matched, const KittiDriftOptions& options,
                                   kKittiLengths_m.front(), comparison.path.reference_m)});
 }
 
+/// rpg's; the lengths where there are too few stretches are told.
+void add_sub_trajectories(const MatchedPoses& matched, const std::vector<double>& asked_m,
+                          Comparison& comparison) {
+  const std::vector<double> lengths_m =
+      asked_m.empty() ? sub_trajectory_lengths(comparison.reference.path_m) : asked_m;
+  comparison.sub_trajectories = sub_trajectory_errors(matched.estimate, matched.reference,
+                                                      comparison.alignment.scale, lengths_m);
+  std::vector<std::string> missing;
+  for (const double length_m : lengths_m) {
+    const bool is_there =
+        std::any_of(comparison.sub_trajectories.begin(), comparison.sub_trajectories.end(),
+                    [&](const SubTrajectoryErrors& errors) { return errors.length_m == length_m; });
+    if (!is_there) missing.push_back(fmt::format("{:g}", length_m));
+  }
+  if (missing.empty()) return;
+  comparison.undefined.push_back(
+      {fmt::format("relative errors over {} m", fmt::join(missing, ", ")),
+       fmt::format("fewer than two stretches so long: the path of the matched poses of the "
+                   "reference is {:.4g} m long",
+                   comparison.path.reference_m)});
+}
+
 }  // namespace
 
 EvaluationOptions run_evaluation_options() {
@@ -159,6 +182,7 @@ Evaluation evaluate(const TrajectoryView& estimate, const TrajectoryView& refere
   add_ape(matched, aligned_estimate, options, comparison);
   comparison.split = error_split(aligned_estimate, matched.reference);
   add_rpe(aligned_estimate, matched.reference, options, comparison);
+  add_sub_trajectories(matched, options.sub_trajectory_lengths_m, comparison);
   return {facts, std::move(comparison), std::nullopt};
 }
 

@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "traverse/evaluation/checkpoints.hpp"
 #include "traverse/evaluation/json.hpp"
 #include "traverse/files/json_document.hpp"
 
@@ -194,6 +195,18 @@ KittiDrift kitti_from(const JsonValue& node, std::size_t matches) {
   return kitti;
 }
 
+std::vector<SubTrajectoryErrors> sub_trajectories_from(const JsonValue& node) {
+  std::vector<SubTrajectoryErrors> list;
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    const JsonValue of = node[i];
+    list.push_back({of["length_m"].number(), statistics_from(of["translation_m"]),
+                    statistics_from(of["translation_percent"]), statistics_from(of["rotation_deg"]),
+                    statistics_from(of["rotation_deg_per_m"]), statistics_from(of["yaw_deg"]),
+                    statistics_from(of["gravity_deg"])});
+  }
+  return list;
+}
+
 ErrorPart part_from(const JsonValue& node) {
   return {node["rmse"].number(), node["mean"].number(), node["max"].number()};
 }
@@ -252,6 +265,9 @@ Comparison comparison_from(const JsonValue& root) {
     comparison.rpe.push_back(rpe_from(rpe[i], matches));
   }
   if (!root["kitti"].is_null()) comparison.kitti = kitti_from(root["kitti"], matches);
+  if (root.has("sub_trajectories") && !root["sub_trajectories"].is_null()) {
+    comparison.sub_trajectories = sub_trajectories_from(root["sub_trajectories"]["lengths"]);
+  }
   comparison.path = path_from(root["path"]);
   const JsonValue undefined = root["undefined"];
   for (std::size_t i = 0; i < undefined.size(); ++i) {
@@ -270,7 +286,65 @@ Evaluation evaluation_from(const JsonValue& root) {
   return evaluation;
 }
 
+Eigen::Vector3d three_from(const JsonValue& node) {
+  const auto numbers = numbers_of(node, 3);
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+std::optional<CheckpointFigures> checkpoint_figures_from(const JsonValue& node) {
+  if (node.is_null()) return std::nullopt;
+  CheckpointFigures figures;
+  figures.count = node["count"].count();
+  figures.rmse_m = three_from(node["rmse_m"]);
+  figures.rmse_horizontal_m = node["rmse_horizontal_m"].number();
+  figures.rmse_vertical_m = node["rmse_vertical_m"].number();
+  figures.rmse_3d_m = node["rmse_3d_m"].number();
+  figures.p95_horizontal_m = node["p95_horizontal_m"].number();
+  figures.p95_vertical_m = node["p95_vertical_m"].number();
+  figures.survey_horizontal_m = node["survey_horizontal_m"].number();
+  figures.survey_vertical_m = node["survey_vertical_m"].number();
+  figures.normalised_horizontal = node["normalised_horizontal"].optional_number();
+  figures.normalised_vertical = node["normalised_vertical"].optional_number();
+  figures.weighted_horizontal_m = node["weighted_horizontal_m"].optional_number();
+  figures.weighted_vertical_m = node["weighted_vertical_m"].optional_number();
+  return figures;
+}
+
+CheckpointEvaluation checkpoints_from(const JsonValue& root) {
+  CheckpointEvaluation evaluation;
+  const JsonValue alignment = root["alignment"];
+  evaluation.alignment = one_of(kAlignmentNames, alignment["mode"]);
+  evaluation.aligned_by = alignment["points"].count();
+  evaluation.is_by_all = alignment["by_all"].boolean();
+  evaluation.enh_map.scale = alignment["scale"].number();
+  for (std::size_t row = 0; row < 3; ++row) {
+    evaluation.enh_map.T_y_x.rotation.row(static_cast<Eigen::Index>(row)) =
+        three_from(alignment["rotation"][row]).transpose();
+  }
+  evaluation.enh_map.T_y_x.translation = three_from(alignment["translation_m"]);
+  const JsonValue residuals = root["residuals"];
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    const JsonValue of = residuals[i];
+    CheckpointResidual residual;
+    residual.point.name = of["name"].text();
+    residual.point.is_control = of["use"].text() == "control";
+    residual.point.p_enh = three_from(of["surveyed_m"]);
+    residual.point.sigma_m = three_from(of["sigma_m"]);
+    residual.estimate_enh = three_from(of["estimate_m"]);
+    residual.residual_m = three_from(of["residual_m"]);
+    evaluation.residuals.push_back(std::move(residual));
+  }
+  evaluation.control = checkpoint_figures_from(root["control"]);
+  evaluation.check = checkpoint_figures_from(root["check"]);
+  evaluation.notes = root["notes"].texts();
+  return evaluation;
+}
+
 }  // namespace
+
+CheckpointEvaluation read_checkpoint_evaluation(const std::filesystem::path& file) {
+  return checkpoints_from(JsonDocument::read(file).root());
+}
 
 Evaluation from_json(std::string_view text) {
   try {

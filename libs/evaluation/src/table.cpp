@@ -39,7 +39,7 @@ void statistics_row(Text& text, Relation relation, const Statistics& s) {
 
 void add_ape(Text& text, const std::vector<Ape>& list, const std::string& alignment) {
   if (list.empty()) return;
-  statistics_head(text, "APE, " + alignment);
+  statistics_head(text, fmt::format("APE, {}, {}", alignment, kRuleOfApe));
   for (const Ape& ape : list) statistics_row(text, ape.relation, ape.statistics);
 }
 
@@ -65,7 +65,8 @@ void add_split(Text& text, const Comparison& comparison) {
 void add_rpe(Text& text, const Comparison& comparison, const std::string& alignment) {
   std::string above;
   for (const Rpe& rpe : comparison.rpe) {
-    const std::string title = fmt::format("RPE, {}, {}", describe(rpe.options), alignment);
+    const std::string title =
+        fmt::format("RPE, {}, {}, {}", describe(rpe.options), alignment, kRuleOfRpe);
     if (title != above) statistics_head(text, title);
     above = title;
     statistics_row(text, rpe.relation, rpe.statistics);
@@ -91,6 +92,20 @@ void add_kitti(Text& text, const KittiDrift& kitti) {
   for (const KittiBin& bin : kitti.by_speed) {
     row(fmt::format("near {} m/s", bin.centre), bin.translation_percent, bin.rotation_deg_per_m,
         bin.segments);
+  }
+}
+
+void add_sub_trajectories(Text& text, const Comparison& comparison) {
+  if (comparison.sub_trajectories.empty()) return;
+  line(text, "\n{}", sub_trajectories_title(comparison));
+  line(text, "  {:26}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}", "mean (median of %)", "m", "%",
+       "median", "deg", "deg/m", "yaw deg", "stretches");
+  for (const SubTrajectoryErrors& errors : comparison.sub_trajectories) {
+    line(text, "  {:26}{:11.5g}{:11.5g}{:11.5g}{:11.5g}{:11.5g}{:11.5g}{:11}",
+         fmt::format("over {:g} m", errors.length_m), errors.translation_m.mean,
+         errors.translation_percent.mean, errors.translation_percent.median,
+         errors.rotation_deg.mean, errors.rotation_deg_per_m.mean, errors.yaw_deg.mean,
+         errors.translation_m.count);
   }
 }
 
@@ -129,6 +144,7 @@ void add_comparison(Text& text, const Comparison& comparison) {
   add_split(text, comparison);
   add_rpe(text, comparison, alignment);
   if (comparison.kitti) add_kitti(text, *comparison.kitti);
+  add_sub_trajectories(text, comparison);
   add_path(text, comparison);
   if (comparison.undefined.empty()) return;
   line(text, "\nnot defined");

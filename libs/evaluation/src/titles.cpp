@@ -67,21 +67,22 @@ std::string describe(const RpeOptions& options) {
 }
 
 std::string title(const Ape& ape, const Comparison& comparison) {
-  return fmt::format("APE {}, {}, {}", title_of(ape.relation),
+  return fmt::format("APE {}, {}, {}, {}", title_of(ape.relation),
                      describe(comparison.alignment, comparison.association.matches.size()),
-                     counted(ape.values.size(), "pair"));
+                     counted(ape.values.size(), "pair"), kRuleOfApe);
 }
 
 std::string title_at_origin(const Ape& ape) {
-  return fmt::format("APE {}, {}, {}", title_of(ape.relation),
-                     alignment_title(AlignmentMode::kOrigin), counted(ape.values.size(), "pair"));
+  return fmt::format("APE {}, {}, {}, {}", title_of(ape.relation),
+                     alignment_title(AlignmentMode::kOrigin), counted(ape.values.size(), "pair"),
+                     kRuleOfApe);
 }
 
 std::string title(const Rpe& rpe, const Comparison& comparison) {
   std::string text =
-      fmt::format("RPE {}, {}, {}, {}", title_of(rpe.relation), describe(rpe.options),
+      fmt::format("RPE {}, {}, {}, {}, {}", title_of(rpe.relation), describe(rpe.options),
                   describe(comparison.alignment, comparison.association.matches.size()),
-                  counted(rpe.values.size(), "pair"));
+                  counted(rpe.values.size(), "pair"), kRuleOfRpe);
   if (rpe.dropped_without_motion > 0) {
     text += fmt::format(", {} without motion left out", rpe.dropped_without_motion);
   }
@@ -104,9 +105,20 @@ std::string alternation_note(const Comparison& comparison) {
 
 std::string title(const KittiDrift& kitti) {
   return fmt::format(
-      "KITTI drift, {} frame, no alignment, {} of {} to {} m, one start every {}, {} s per pose",
+      "KITTI drift, {} frame, no alignment, {} of {} to {} m, one start every {}, {} s per pose, "
+      "{}",
       kitti.frame, counted(kitti.segments.size(), "segment"), kKittiLengths_m.front(),
-      kKittiLengths_m.back(), counted(kitti.step, "pose"), kitti.frame_seconds);
+      kKittiLengths_m.back(), counted(kitti.step, "pose"), kitti.frame_seconds, kRuleOfKittiDrift);
+}
+
+std::string sub_trajectories_title(const Comparison& comparison) {
+  const double scale = comparison.alignment.scale;
+  return fmt::format(
+      "relative errors by length, stretches from every pose, at most 20 % off their length along "
+      "the reference, {}, {}",
+      scale == 1 ? std::string("no alignment")
+                 : fmt::format("scale {:.6g}, else no alignment", scale),
+      kRuleOfSubTrajectories);
 }
 
 std::string path_title(const Comparison& comparison) {

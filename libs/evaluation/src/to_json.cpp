@@ -231,6 +231,21 @@ Json json_of(const Consistency& score) {
           {"how", title(score)},      {"point_to_plane", point_to_plane}};
 }
 
+Json sub_trajectories_json(const Comparison& comparison) {
+  if (comparison.sub_trajectories.empty()) return nullptr;
+  Json lengths = Json::array();
+  for (const SubTrajectoryErrors& errors : comparison.sub_trajectories) {
+    lengths.push_back({{"length_m", errors.length_m},
+                       {"translation_m", json_of(errors.translation_m)},
+                       {"translation_percent", json_of(errors.translation_percent)},
+                       {"rotation_deg", json_of(errors.rotation_deg)},
+                       {"rotation_deg_per_m", json_of(errors.rotation_deg_per_m)},
+                       {"yaw_deg", json_of(errors.yaw_deg)},
+                       {"gravity_deg", json_of(errors.gravity_deg)}});
+  }
+  return {{"lengths", std::move(lengths)}, {"how", sub_trajectories_title(comparison)}};
+}
+
 void add_comparison(Json& json, const Comparison& comparison, Document& document) {
   json["reference"] = json_of(comparison.reference);
   json["association"] = association_json(comparison, document);
@@ -243,6 +258,7 @@ void add_comparison(Json& json, const Comparison& comparison, Document& document
   json["split"] = split_json(comparison);
   json["rpe"] = rpe_json(comparison, document);
   json["kitti"] = comparison.kitti ? json_of(*comparison.kitti, document) : Json();
+  json["sub_trajectories"] = sub_trajectories_json(comparison);
   json["path"] = path_json(comparison);
 }
 
@@ -252,6 +268,7 @@ void add_no_comparison(Json& json, const TrajectoryFacts& estimate) {
   json["split"] = nullptr;
   json["rpe"] = Json::array();
   json["kitti"] = nullptr;
+  json["sub_trajectories"] = nullptr;
   json["path"] = {
       {"estimate_m", estimate.path_m}, {"reference_m", nullptr},
       {"end_error_m", nullptr},        {"end_error_percent", nullptr},

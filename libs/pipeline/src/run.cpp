@@ -414,6 +414,15 @@ RunRecord run(dataset::Source& source, Pipeline& pipeline, const RunFolder& fold
     attempt([&] { check_reference(source, results->trajectory(), record); });
     attempt([&] { evaluate_run(source, estimator, *results, readings, folder, record); });
     attempt([&] { check_jacobians(estimator, folder); });
+    if (options.also_write) {
+      attempt([&] {
+        try {
+          options.also_write(results->trajectory(), folder);
+        } catch (const evaluation::EvaluationError& error) {
+          if (record.evaluation_error.empty()) record.evaluation_error = error.what();
+        }
+      });
+    }
     attempt([&] { add_digests(folder, record.files); });
     stopped = is_stopped(observer);
     if (options.hash_recording && !stopped && !attempt.has_failed()) {

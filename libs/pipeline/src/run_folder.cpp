@@ -5,6 +5,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "traverse/evaluation/checkpoints.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 
@@ -38,11 +39,29 @@ bool remove_end(std::string_view& text, std::string_view end) {
 }  // namespace
 
 std::vector<std::filesystem::path> RunFolder::files() const {
-  return {record(),       trajectory(), utm_trajectory(), odometry(),      odometry_evaluation(),
-          loops(),        keyframes(),  reference(),      frames(),        map_points(),
-          simple_map(),   origin(),     geodetic_path(),  geodetic_line(), sample_scan(),
-          worst_frames(), evaluation(), jacobians(),      factor_bench(),  report(),
-          report_json(),  las()};
+  return {record(),
+          trajectory(),
+          utm_trajectory(),
+          odometry(),
+          odometry_evaluation(),
+          loops(),
+          keyframes(),
+          reference(),
+          frames(),
+          map_points(),
+          simple_map(),
+          origin(),
+          geodetic_path(),
+          geodetic_line(),
+          sample_scan(),
+          worst_frames(),
+          evaluation(),
+          path / evaluation::kCheckpointsFile,
+          jacobians(),
+          factor_bench(),
+          report(),
+          report_json(),
+          las()};
 }
 
 bool RunFolder::is_picture(std::string_view name) {

@@ -59,13 +59,14 @@ class ResultWriter {
     if (!tables.empty()) {
       files::write_text(folder_.tables(), tables_markdown(plan_, tables, made()));
     }
+    const RunFolderOf folder_of = [this](const Job& job) { return folder_.run(job.id); };
     std::vector<Lead> leads;
     for (const std::string& metric : plan_.metrics) {
-      const auto lead = find_lead(metric, results_, variants, folder_);
+      const auto lead = find_lead(metric, results_, variants, folder_of);
       if (lead) leads.push_back(*lead);
     }
     files::write_text(folder_.report(), batch_page({plan_, results_, variants, baseline, tables,
-                                                    leads, options_.command},
+                                                    leads, options_.command, folder_of},
                                                    options_.templates));
     regressed_ = baseline ? count_regressions(*baseline) : 0;
     next_ = Clock::now() +

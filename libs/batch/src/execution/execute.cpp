@@ -305,8 +305,9 @@ ProcessEnd run_command(const Job& job, const ExecutionContext& context, const fs
   command.program = "/usr/bin/env";
   command.folder = folder;
   command.is_group = true;
-  command.arguments = {std::string(kWorkOf) + work.string(),
-                       fmt::format("OMP_NUM_THREADS={}", job.limits.threads), "/bin/sh", "-c",
+  const std::string mark = std::string(kWorkOf) + work.string();
+  if (job.in_container) command.mark = mark;
+  command.arguments = {mark, fmt::format("OMP_NUM_THREADS={}", job.limits.threads), "/bin/sh", "-c",
                        job.command};
   ProcessEnd end = run_process(command, context.stop);
   end_programs_of(work);

@@ -118,6 +118,13 @@ std::vector<std::string> run_arguments(const Plan& plan, const PlannedRecording&
   }
   if (!recording.reference.empty()) add("--reference", recording.reference.string());
   if (!recording.reference_frame.empty()) add("--reference-frame", recording.reference_frame);
+  if (!recording.checkpoints.empty()) add("--checkpoints", recording.checkpoints.string());
+  if (!recording.point.empty()) {
+    words.push_back(fmt::format("--point={}", fmt::join(recording.point, ",")));
+  }
+  if (recording.points_time_offset_s != 0) {
+    words.push_back(fmt::format("--points-time-offset={}", recording.points_time_offset_s));
+  }
   if (recording.first > 0) add("--first", std::to_string(recording.first));
   if (recording.last >= 0) add("--last", std::to_string(recording.last));
   if (!is_command) add("--threads", std::to_string(plan.limits.threads));
@@ -136,6 +143,10 @@ std::string identity_of(const Plan& plan, const PlannedRecording& recording,
       program, recording_sha256, fmt::join(statements_about(recording, variant), "; "),
       recording.reference_frame, recording.first, recording.last, variant.estimator,
       variant.configuration_sha256, plan.limits.threads, plan.reports);
+  if (!recording.checkpoints.empty()) {
+    text += fmt::format("checkpoints {} {} {}\n", files::sha256_of_file(recording.checkpoints),
+                        fmt::join(recording.point, " "), recording.points_time_offset_s);
+  }
   if (plan.is_private) text += "private\n";  // a run that tells more does not serve
   return text + fmt::format("repeat {}\n", repeat);
 }
@@ -152,6 +163,7 @@ void add_command(const Plan& plan, const PlannedRecording& recording, const Vari
   places.settings.insert(places.settings.end(), variant.settings.begin(), variant.settings.end());
   job.command = expanded(variant.pipeline.command, places);
   job.trajectory = variant.pipeline.command.trajectory;
+  job.in_container = static_cast<bool>(variant.pipeline.command.container);
 }
 
 json to_json(const Job& job) {
@@ -168,6 +180,7 @@ json to_json(const Job& job) {
             {"attempts", job.limits.attempts}};
   if (job.command.empty()) return line;
   line["command"] = job.command;
+  line["in_container"] = job.in_container;
   line["trajectory"] = job.trajectory;
   return line;
 }
@@ -187,6 +200,7 @@ Job job_of(const files::JsonValue& line) {
   job.limits.attempts = line["attempts"].small_integer();
   if (!line.has("command")) return job;
   job.command = line["command"].text();
+  job.in_container = line.has("in_container") && line["in_container"].boolean();
   job.trajectory = line["trajectory"].text();
   return job;
 }

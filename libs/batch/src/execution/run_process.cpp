@@ -9,8 +9,11 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <poll.h>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <sys/prctl.h>
@@ -82,15 +85,45 @@ double memory_mb(pid_t pid, std::string_view which) {
   return 0;
 }
 
-/// The memory that all processes of a group hold together.
-double group_memory_mb(pid_t group) {
+bool has_in_environment(pid_t pid, const std::string& mark) {
+  std::ifstream stream(fmt::format("/proc/{}/environ", pid), std::ios::binary);
+  for (std::string variable; std::getline(stream, variable, '\0');) {
+    if (variable == mark) return true;
+  }
+  return false;
+}
+
+/// Processor time that a process has had, with that of its children that it waited for.
+double cpu_s_of(pid_t pid) {
+  std::ifstream stream(fmt::format("/proc/{}/stat", pid));
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::size_t name_ends = text.rfind(')');
+  if (name_ends == std::string::npos) return 0;
+  std::istringstream fields(text.substr(name_ends + 2));
+  std::string skipped;
+  for (int k = 0; k < 11; ++k) fields >> skipped;  // from the state to the page faults
+  double ticks = 0;
+  for (int k = 0; k < 4; ++k) {
+    double value = 0;
+    fields >> value;
+    ticks += value;
+  }
+  return ticks / static_cast<double>(::sysconf(_SC_CLK_TCK));
+}
+
+/// The memory that all processes of a group hold together, and those with the mark beside it, whose
+/// processor time is noted.
+double group_memory_mb(pid_t group, const std::string& mark, std::map<pid_t, double>& cpu_s) {
   double sum = 0;
   std::error_code failure;
   for (const auto& entry : std::filesystem::directory_iterator("/proc", failure)) {
     const std::string name = entry.path().filename().string();
     if (name.empty() || name.find_first_not_of("0123456789") != std::string::npos) continue;
     const auto pid = static_cast<pid_t>(std::stol(name));
-    if (::getpgid(pid) == group) sum += memory_mb(pid, "VmRSS:");
+    const bool is_in_group = ::getpgid(pid) == group;
+    if (!is_in_group && (mark.empty() || !has_in_environment(pid, mark))) continue;
+    sum += memory_mb(pid, "VmRSS:");
+    if (!is_in_group) cpu_s[pid] = std::max(cpu_s[pid], cpu_s_of(pid));
   }
   return sum;
 }
@@ -138,6 +171,7 @@ ProcessEnd run_process(const ProcessStart& start, const std::atomic<bool>& stop)
   wait_for_program(program_begins.number());  // until then the memory seen is that of this process
 
   ProcessEnd end;
+  std::map<pid_t, double> cpu_s_beside;  // of marked processes that are not in the group
   end.peak_memory_mb = memory_mb(pid, "VmHWM:");
   const auto end_it = [&](EndCause cause) {
     end.cause = cause;
@@ -148,7 +182,8 @@ ProcessEnd run_process(const ProcessStart& start, const std::atomic<bool>& stop)
   while (::poll(&ended, 1, look_after_ms) <= 0) {
     look_after_ms = std::min(2 * look_after_ms, kLookEvery_ms);
     if (end.cause != EndCause::kItself) continue;  // it is dying
-    const double now_mb = start.is_group ? group_memory_mb(pid) : memory_mb(pid, "VmRSS:");
+    const double now_mb =
+        start.is_group ? group_memory_mb(pid, start.mark, cpu_s_beside) : memory_mb(pid, "VmRSS:");
     end.peak_memory_mb =
         std::max(end.peak_memory_mb, start.is_group ? now_mb : memory_mb(pid, "VmHWM:"));
     if (stop) {
@@ -166,6 +201,7 @@ ProcessEnd run_process(const ProcessStart& start, const std::atomic<bool>& stop)
   }
   end.wall_s = elapsed();
   end.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  for (const auto& [beside, cpu_s] : cpu_s_beside) end.cpu_s += cpu_s;
   // The system's own figure counts what the process held before it became the program: a copy of
   // this one. Above that it is the program's, and exact; else it is a bound, if nothing was seen.
   const double counted_mb = static_cast<double>(usage.ru_maxrss) / 1024;

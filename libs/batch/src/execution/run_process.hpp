@@ -20,6 +20,10 @@ struct ProcessStart {
   /// Its memory is that of all processes of its group together, and nothing of the group outlives
   /// it: of programs that start others.
   bool is_group = false;
+  /// Of a group: an environment variable, as NAME=VALUE, whose processes belong to it wherever they
+  /// are, as those of a container do. Their processor time is that seen last, twenty times a
+  /// second.
+  std::string mark = {};
   std::function<void(int pid)> started = [](int) {};
 };
 

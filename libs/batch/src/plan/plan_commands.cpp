@@ -21,6 +21,7 @@
 #include "traverse/files/numbers.hpp"
 
 #include "plan/command_text.hpp"
+#include "plan/container.hpp"
 #include "plan/plan_error.hpp"
 #include "plan/plan_parts.hpp"
 
@@ -66,12 +67,14 @@ std::string command_identity(const PlannedCommand& command, const fs::path& fold
   for_each_placeholder(
       command.text, [&](std::string_view piece) { plain += piece; },
       [&](const std::string& name) { plain += name == "plan" ? folder.string() : " "; });
-  bool is_program = true;
+  if (command.container) text += "container " + command.container.digest + "\n";
+  bool is_program = !command.container;  // else it is the image's
   for (const std::string_view word : files::split_words(plain)) {
     if (is_assignment(word)) continue;
     fs::path file = (folder / std::string(word)).lexically_normal();
     if (is_program) file = program_named(std::string(word)).value_or(file);
-    is_program = word == "|" || word == "&&" || word == ";" || word == "exec" || word == "env";
+    is_program = !command.container &&
+                 (word == "|" || word == "&&" || word == ";" || word == "exec" || word == "env");
     if (!fs::is_regular_file(file)) continue;
     text += fmt::format("file {} {}\n", word, files::sha256_of_file(file));
   }
@@ -135,6 +138,7 @@ PlannedPipeline read_command(const config::Document& entry, const fs::path& fold
   std::string config;
   std::string system;
   std::string about;
+  std::string image;
   static constexpr std::array<std::string_view, 3> kOthers{"set", "grid", "statements"};
   config::read(
       entry,
@@ -145,6 +149,7 @@ PlannedPipeline read_command(const config::Document& entry, const fs::path& fold
         b.text("command", command.text, "how it is started, for /bin/sh");
         b.text("trajectory", command.trajectory, "what it writes: a path or a pattern");
         b.text("version", command.version, "of the program");
+        b.text("container", image, "image in which it runs, of apptainer or podman");
         b.text("config", config, "file that {config} stands for");
         b.word("format", command.format, formats, "of the trajectory");
         b.text("columns", command.columns, "of a CSV trajectory");
@@ -177,6 +182,9 @@ PlannedPipeline read_command(const config::Document& entry, const fs::path& fold
     if (ending_of_format(format) != "?") continue;
     throw plan_error(pipeline.origin, "{format:kitti}, pcd, ply, bag, mcap or rawlog",
                      files::in_quotes("{format:" + format + "}"));
+  }
+  if (!image.empty()) {
+    command.container = find_container(image, folder, *entry.origin("container"));
   }
   pipeline.statements = assignments_under(entry, "statements");
   for (const config::Leaf& leaf : entry.child("set").leaves()) {

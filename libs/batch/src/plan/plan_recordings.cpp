@@ -1,5 +1,6 @@
 #include "plan/plan_recordings.hpp"
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <string>
@@ -35,15 +36,25 @@ fs::path absolute_below(const fs::path& folder, const std::string& path) {
   return (folder / path).lexically_normal();
 }
 
-/// A file that the entry names under `key`, which must be there.
-fs::path existing_file(const Document& entry, std::string_view key, const std::string& name,
-                       const fs::path& folder) {
-  if (name.empty()) return {};
-  fs::path file = absolute_below(folder, name);
-  if (!fs::is_regular_file(file)) {
-    throw plan_error(*entry.origin(key), "a file that is there", files::in_quotes(file.string()));
+/// Files that plans name and that are not there. All are told at once.
+struct Missing {
+  Origin origin;
+  std::string what;
+  fs::path path;
+};
+
+/// \throws files::InputError with the place of the first
+void require_none(const std::vector<Missing>& missing) {
+  if (missing.empty()) return;
+  constexpr std::size_t kMostNamed = 20;
+  // Whole, unlike files::in_quotes(): of a long path the end tells.
+  std::string found = fmt::format("'{}'", missing.front().path.string());
+  for (std::size_t i = 1; i < std::min(missing.size(), kMostNamed); ++i) {
+    found += fmt::format("{} '{}'", i == 1 ? "; nor are there" : ",", missing[i].path.string());
   }
-  return file;
+  if (missing.size() > kMostNamed)
+    found += fmt::format(" and {} more", missing.size() - kMostNamed);
+  throw plan_error(missing.front().origin, missing.front().what, found);
 }
 
 /// {length: 60, quiet: true} as the words --length 60 --quiet.
@@ -58,12 +69,24 @@ std::vector<std::string> option_words(const Document& options) {
   return words;
 }
 
-Entry read_entry(const Document& document, const fs::path& folder) {
+/// A file that the entry names under `key`, which must be there.
+fs::path existing_file(const Document& entry, std::string_view key, const std::string& name,
+                       const fs::path& folder, std::vector<Missing>& missing) {
+  if (name.empty()) return {};
+  fs::path file = absolute_below(folder, name);
+  if (!fs::is_regular_file(file)) {
+    missing.push_back({*entry.origin(key), "a file that is there", file});
+  }
+  return file;
+}
+
+Entry read_entry(const Document& document, const fs::path& folder, std::vector<Missing>& missing) {
   Entry entry;
   PlannedRecording& recording = entry.recording;
   recording.origin = document.origin();
   std::string config_file;
   std::string reference;
+  std::string checkpoints;
   static constexpr std::array<std::string_view, 4> kFrames{"", "body", "lidar", "camera"};
   static constexpr std::array<std::string_view, 3> kOthers{"statements", "arguments", "pipelines"};
   config::read(
@@ -78,6 +101,11 @@ Entry read_entry(const Document& document, const fs::path& folder) {
         b.text("reference", reference, "reference trajectory");
         b.word("reference_frame", recording.reference_frame, kFrames,
                "coordinate frame whose poses it holds");
+        b.text("checkpoints", checkpoints,
+               "surveyed points, a prism or fixes to hold runs against");
+        b.numbers("point", recording.point, "what stood over them in the body");
+        b.number("points_time_offset_s", recording.points_time_offset_s,
+                 config::Range::between(-9.2e9, 9.2e9), "added to their stamps");
         b.integer("first", recording.first, config::Range::non_negative(), "first frame");
         b.integer("last", recording.last, config::Range::non_negative(), "last frame, included");
       },
@@ -90,8 +118,13 @@ Entry read_entry(const Document& document, const fs::path& folder) {
     throw plan_error(*document.origin("last"), "a last frame that is not before the first",
                      std::to_string(recording.last));
   }
-  recording.statements_file = existing_file(document, "config", config_file, folder);
-  recording.reference = existing_file(document, "reference", reference, folder);
+  recording.statements_file = existing_file(document, "config", config_file, folder, missing);
+  recording.reference = existing_file(document, "reference", reference, folder, missing);
+  recording.checkpoints = existing_file(document, "checkpoints", checkpoints, folder, missing);
+  if (!recording.point.empty() && recording.point.size() != 3) {
+    throw plan_error(*document.origin("point"), "three numbers: x, y, z in the body",
+                     std::to_string(recording.point.size()));
+  }
   recording.statements = assignments_under(document, "statements");
   for (const Document& item : document.items("pipelines", "name")) {
     recording.pipelines.push_back(item.scalar("name").value_or(""));
@@ -120,13 +153,14 @@ std::string name_of_path(const fs::path& path) {
 }
 
 void add_recorded(const Entry& entry, const fs::path& folder,
-                  std::vector<PlannedRecording>& recordings) {
+                  std::vector<PlannedRecording>& recordings, std::vector<Missing>& missing) {
   const Origin& origin = entry.recording.origin;
   fs::path pattern = absolute_below(folder, entry.path);
   if (!pattern.has_filename()) pattern = pattern.parent_path();  // "drive/" is "drive"
   const std::vector<fs::path> paths = matching(pattern);
   if (paths.empty()) {
-    throw plan_error(origin, "a recording that is there", files::in_quotes(pattern.string()));
+    missing.push_back({origin, "a recording that is there", pattern});
+    return;
   }
   if (paths.size() > 1 && !entry.recording.name.empty()) {
     throw plan_error(origin, "one recording for a name",
@@ -185,14 +219,16 @@ void check_names(const std::vector<PlannedRecording>& recordings) {
 std::vector<PlannedRecording> read_recordings(const Document& plan, const fs::path& folder,
                                               const SimulationCheck& simulation_error) {
   std::vector<PlannedRecording> recordings;
+  std::vector<Missing> missing;
   for (const Document& item : plan.items("recordings", "path")) {
-    const Entry entry = read_entry(item, folder);
+    const Entry entry = read_entry(item, folder, missing);
     if (entry.world.empty()) {
-      add_recorded(entry, folder, recordings);
+      add_recorded(entry, folder, recordings, missing);
     } else {
       add_generated(entry, item, simulation_error, recordings);
     }
   }
+  require_none(missing);
   if (recordings.empty()) {
     throw plan_error(plan.origin("recordings").value_or(plan.origin()), "at least one recording",
                      "none");

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,7 @@
 #include "traverse/files/shell_word.hpp"
 
 #include "plan/command_text.hpp"
+#include "plan/container.hpp"
 
 namespace traverse::batch {
 
@@ -91,7 +93,11 @@ std::string expanded(const PlannedCommand& command, const CommandPlaces& places)
         if (!value) throw std::invalid_argument(files::in_quotes("{" + name + "}"));
         text += *value;
       });
-  return text;
+  if (!command.container) return text;
+  std::vector<std::filesystem::path> readable{places.recording, command.config_file};
+  if (!places.plan_folder.empty()) readable.push_back(places.plan_folder / "plan");
+  for (const auto& [format, path] : places.converted) readable.push_back(path);
+  return in_container(command.container, text, readable);
 }
 
 }  // namespace traverse::batch

@@ -3,70 +3,21 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <cstdint>
 #include <map>
-#include <string_view>
 
 #include <fmt/format.h>
 
 #include "traverse/batch/metric.hpp"
-#include "traverse/evaluation/bootstrap.hpp"
-#include "traverse/evaluation/json.hpp"
-#include "traverse/evaluation/relation.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/number_text.hpp"
-#include "traverse/pipeline/run_folder.hpp"
 
 namespace traverse::batch {
 
 namespace {
 
-using evaluation::Figure;
-
 constexpr double kLeadConfidence = 0.95;
 constexpr double kNormalQuantile = 1.959963984540054;  // of 0.975
 constexpr std::size_t kEnoughRecordings = 3;           // for Student's t to say anything
-
-/// Errors of a run by the moment that they belong to.
-using Series = std::map<std::int64_t, double>;
-
-/// The series that a metric is a figure of, and which; nothing for a metric without one.
-struct SeriesOfMetric {
-  explicit SeriesOfMetric(std::string_view metric) {
-    for (const auto& [ending, kind] :
-         {std::pair{"_rmse", Figure::kRmse}, std::pair{"_mean", Figure::kMean},
-          std::pair{"_median", Figure::kMedian}}) {
-      if (metric.ends_with(ending)) figure = kind;
-    }
-    is_ape = figure && metric.starts_with("ape_translation_");
-    is_rpe = figure && metric.starts_with("rpe_10f_translation_");
-  }
-  bool is_known() const { return is_ape || is_rpe; }
-
-  Series of(const evaluation::Evaluation& evaluation) const {
-    Series series;
-    if (!evaluation.comparison) return series;
-    const auto& comparison = *evaluation.comparison;
-    const auto relation = evaluation::Relation::kTranslation;
-    if (comparison.stamps.empty()) return series;
-    if (const auto* ape = evaluation::find_ape(comparison, relation); is_ape && ape != nullptr) {
-      for (std::size_t k = 0; k < ape->values.size(); ++k) {
-        series[comparison.stamps[k].nanoseconds] = ape->values[k];
-      }
-    }
-    if (const auto* rpe = evaluation::find_rpe(comparison, relation, 10);
-        is_rpe && rpe != nullptr) {
-      for (std::size_t k = 0; k < rpe->values.size(); ++k) {
-        series[comparison.stamps[rpe->pairs[k].to].nanoseconds] = rpe->values[k];
-      }
-    }
-    return series;
-  }
-
-  std::optional<Figure> figure;
-  bool is_ape = false;
-  bool is_rpe = false;
-};
 
 /// By recording: the mean of the metric over the repeats, and the first run that has it.
 struct OfRecording {
@@ -107,28 +58,6 @@ std::optional<std::pair<double, double>> interval_over_recordings(
   return std::pair(mean - half, mean + half);
 }
 
-/// Half of the interval of the difference on one recording.
-std::optional<double> half_along_drive(const Job& first, const Job& second,
-                                       const SeriesOfMetric& series, const BatchFolder& folder) {
-  const auto read = [&](const Job& job) {
-    const pipeline::RunFolder run{folder.run(job.id)};
-    return series.of(evaluation::read_evaluation(run.evaluation()));
-  };
-  const Series of_first = read(first);
-  const Series of_second = read(second);
-  std::vector<double> a;
-  std::vector<double> b;
-  for (const auto& [moment, value] : of_first) {
-    const auto found = of_second.find(moment);
-    if (found == of_second.end()) continue;
-    a.push_back(value);
-    b.push_back(found->second);
-  }
-  const auto difference = evaluation::bootstrap_difference(a, b, *series.figure);
-  if (!difference) return std::nullopt;
-  return (difference->interval.high - difference->interval.low) / 2;
-}
-
 std::string with_unit(double value, const Metric& metric) {
   return fmt::format("{:.3g}{}{}", value, metric.unit.empty() ? "" : " ", metric.unit);
 }
@@ -137,7 +66,7 @@ std::string with_unit(double value, const Metric& metric) {
 
 std::optional<Lead> find_lead(const std::string& metric, const Results& results,
                               const std::vector<VariantSummary>& variants,
-                              const BatchFolder& folder) {
+                              const RunFolderOf& folder_of) {
   std::vector<const VariantSummary*> with_metric;
   for (const VariantSummary& variant : variants) {
     if (variant.means.contains(metric)) with_metric.push_back(&variant);
@@ -161,7 +90,7 @@ std::optional<Lead> find_lead(const std::string& metric, const Results& results,
   lead.has_more_ok = with_metric[0]->ok > with_metric[1]->ok;
   const auto first = by_recording(results, lead.first, metric);
   const auto second = by_recording(results, lead.second, metric);
-  const SeriesOfMetric series{metric};
+  RunSeries series(metric, folder_of);
   std::vector<double> differences;
   double variance = 0;  // of the mean of the differences, by the drives alone
   bool has_variance = series.is_known();
@@ -183,7 +112,7 @@ std::optional<Lead> find_lead(const std::string& metric, const Results& results,
     const auto of_second = second.find(recording);
     if (!has_variance || of_second == second.end()) continue;
     try {
-      const auto half = half_along_drive(*of_first.job, *of_second->second.job, series, folder);
+      const auto half = series.half_of_difference(*of_first.job, *of_second->second.job);
       has_variance = half.has_value();
       if (half) variance += std::pow(*half / kNormalQuantile / n, 2);
     } catch (const files::InputError&) {

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "traverse/batch/batch_folder.hpp"
 #include "traverse/batch/results.hpp"
 #include "traverse/page/table.hpp"
 
+#include "results/run_series.hpp"
 #include "results/summary.hpp"
 
 namespace traverse::batch {
@@ -36,7 +36,7 @@ struct Lead {
 /// `variants`, which stand as summarise() has them, does not have the metric.
 std::optional<Lead> find_lead(const std::string& metric, const Results& results,
                               const std::vector<VariantSummary>& variants,
-                              const BatchFolder& folder);
+                              const RunFolderOf& folder_of);
 
 /// A row a metric of which less is better: the best variant, the next, and by how much.
 page::Table leads_table(const std::vector<Lead>& leads);

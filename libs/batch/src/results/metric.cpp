@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "traverse/evaluation/bootstrap.hpp"
+#include "traverse/evaluation/checkpoints.hpp"
 #include "traverse/evaluation/relation.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/numbers.hpp"
@@ -51,6 +53,25 @@ std::string qualifier(evaluation::Relation relation, std::string_view statistic)
   return text;
 }
 
+/// Drift by the length of the stretch.
+void take_lengths(const json& evaluation, Values& values) {
+  const json::json_pointer kitti("/kitti/by_length");
+  if (evaluation.contains(kitti)) {
+    for (const json& bin : evaluation.at(kitti)) {
+      values[kitti_length_key(static_cast<int>(bin.at("length_m").get<double>()))] =
+          bin.at("translation_percent").get<double>();
+    }
+  }
+  const json::json_pointer lengths("/sub_trajectories/lengths");
+  if (!evaluation.contains(lengths)) return;
+  const double path_m = evaluation.at("reference").at("path_m").get<double>();
+  for (const json& errors : evaluation.at(lengths)) {
+    const double share = errors.at("length_m").get<double>() / path_m;
+    values[path_share_key(10 * static_cast<int>(std::lround(10 * share)))] =
+        errors.at("translation_percent").at("mean").get<double>();
+  }
+}
+
 std::vector<Metric> make_metrics() {
   std::vector<Metric> metrics;
   for (const auto& [name, relation] : evaluation::kRelationNames) {
@@ -70,39 +91,53 @@ std::vector<Metric> make_metrics() {
       }
     }
   }
-  const std::vector<Metric> others{{"kitti_translation_percent", "Drift (KITTI)", "%"},
-                                   {"kitti_rotation_deg_per_m", "Rotation drift (KITTI)", "deg/m"},
-                                   {"kitti_segments", "KITTI segments", "", false},
-                                   {"end_error_m", "Closing error", "m"},
-                                   {"end_error_percent", "Closing error", "%"},
-                                   {"end_rotation_deg", "End rotation", "deg"},
-                                   {"path_estimate_m", "Path, estimate", "m", false},
-                                   {"path_reference_m", "Path, reference", "m", false},
-                                   {"pairs", "Pairs", "", false},
-                                   {"mme", "Map entropy", "nats"},
-                                   {"mme_queries", "Map entropy, queries", "", false},
-                                   {"mpv_m", "Plane deviation", "m"},
-                                   {"odometry_ape_translation_rmse", "APE before loops", "m"},
-                                   {"odometry_mme", "Map entropy before loops", "nats"},
-                                   {"loop_candidates", "Loop candidates", "", false},
-                                   {"loops_accepted", "Loops closed", "", false},
-                                   {"jump_p95_m", "Jump at fixes, 95 %", "m"},
-                                   {"jump_max_m", "Largest jump", "m"},
-                                   {"jumps", "Jumps", ""},
-                                   {"roughness_m", "Roughness", "m"},
-                                   {"registered_share", "Registered", "", false, false, true},
-                                   {"restarts", "Restarts", ""},
-                                   {"frames_used", "Frames used", "", false},
-                                   {"frames_skipped", "Records skipped", ""},
-                                   {"degenerate_frames", "Degenerate frames", ""},
-                                   {"map_points", "Map points", "", false},
-                                   {"frame_median_ms", "Time per frame", "ms", true, true},
-                                   {"frame_p95_ms", "Time per frame, 95 %", "ms", true, true},
-                                   {"frame_max_ms", "Time per frame, most", "ms", true, true},
-                                   {"frames_total_ms", "Time of all frames", "ms", true, true},
-                                   {"wall_s", "Wall time", "s", true, true},
-                                   {"cpu_s", "CPU time", "s", true, true},
-                                   {"peak_memory_mb", "Memory", "MB", true, true}};
+  for (const int length_m : kKittiLengths_m) {
+    metrics.push_back(
+        {kitti_length_key(length_m), fmt::format("Drift over {} m (KITTI)", length_m), "%"});
+  }
+  for (const int share : kPathShares_percent) {
+    metrics.push_back(
+        {path_share_key(share), fmt::format("Drift over {} % of the path (rpg)", share), "%"});
+  }
+  const std::vector<Metric> others{
+      {"kitti_translation_percent", "Drift (KITTI)", "%"},
+      {"kitti_rotation_deg_per_m", "Rotation drift (KITTI)", "deg/m"},
+      {"kitti_segments", "KITTI segments", "", false},
+      {"end_error_m", "Closing error", "m"},
+      {"end_error_percent", "Closing error", "%"},
+      {"end_rotation_deg", "End rotation", "deg"},
+      {"path_estimate_m", "Path, estimate", "m", false},
+      {"path_reference_m", "Path, reference", "m", false},
+      {"pairs", "Pairs", "", false},
+      {"checkpoint_horizontal_rmse_m", "Checkpoints, horizontal", "m"},
+      {"checkpoint_vertical_rmse_m", "Checkpoints, vertical", "m"},
+      {"checkpoint_horizontal_p95_m", "Checkpoints, horizontal, 95 %", "m"},
+      {"checkpoint_vertical_p95_m", "Checkpoints, vertical, 95 %", "m"},
+      {"checkpoints", "Checkpoints", "", false},
+      {"mme", "Map entropy", "nats"},
+      {"mme_queries", "Map entropy, queries", "", false},
+      {"mpv_m", "Plane deviation", "m"},
+      {"odometry_ape_translation_rmse", "APE before loops", "m"},
+      {"odometry_mme", "Map entropy before loops", "nats"},
+      {"loop_candidates", "Loop candidates", "", false},
+      {"loops_accepted", "Loops closed", "", false},
+      {"jump_p95_m", "Jump at fixes, 95 %", "m"},
+      {"jump_max_m", "Largest jump", "m"},
+      {"jumps", "Jumps", ""},
+      {"roughness_m", "Roughness", "m"},
+      {"registered_share", "Registered", "", false, false, true},
+      {"restarts", "Restarts", ""},
+      {"frames_used", "Frames used", "", false},
+      {"frames_skipped", "Records skipped", ""},
+      {"degenerate_frames", "Degenerate frames", ""},
+      {"map_points", "Map points", "", false},
+      {"frame_median_ms", "Time per frame", "ms", true, true},
+      {"frame_p95_ms", "Time per frame, 95 %", "ms", true, true},
+      {"frame_max_ms", "Time per frame, most", "ms", true, true},
+      {"frames_total_ms", "Time of all frames", "ms", true, true},
+      {"wall_s", "Wall time", "s", true, true},
+      {"cpu_s", "CPU time", "s", true, true},
+      {"peak_memory_mb", "Memory", "MB", true, true}};
   metrics.insert(metrics.end(), others.begin(), others.end());
   return metrics;
 }
@@ -148,6 +183,7 @@ void take_accuracy(const json& evaluation, Values& values) {
   take(evaluation, "/kitti/translation_percent", "kitti_translation_percent", values);
   take(evaluation, "/kitti/rotation_deg_per_m", "kitti_rotation_deg_per_m", values);
   take(evaluation, "/kitti/segments", "kitti_segments", values);
+  take_lengths(evaluation, values);
   take(evaluation, "/path/end_error_m", "end_error_m", values);
   take(evaluation, "/path/end_error_percent", "end_error_percent", values);
   take(evaluation, "/path/end_rotation_deg", "end_rotation_deg", values);
@@ -172,6 +208,18 @@ void take_run(const json& run, Values& values) {
     double skipped = 0;
     for (const json& count : run["frames"]["skipped"]) skipped += count.get<double>();
     values["frames_skipped"] = skipped;
+  }
+}
+
+/// Residuals at surveyed points: of those that check, or of all where all align.
+void take_checkpoints(const json& residuals, Values& values) {
+  const char* kind = residuals.contains("/check/count"_json_pointer) ? "check" : "control";
+  for (const auto& [from, to] : {std::pair{"rmse_horizontal_m", "checkpoint_horizontal_rmse_m"},
+                                 std::pair{"rmse_vertical_m", "checkpoint_vertical_rmse_m"},
+                                 std::pair{"p95_horizontal_m", "checkpoint_horizontal_p95_m"},
+                                 std::pair{"p95_vertical_m", "checkpoint_vertical_p95_m"},
+                                 std::pair{"count", "checkpoints"}}) {
+    take(residuals, fmt::format("/{}/{}", kind, from).c_str(), to, values);
   }
 }
 
@@ -233,6 +281,14 @@ void take_jumps(const pipeline::FrameTable& frames, Values& values) {
 
 }  // namespace
 
+std::string kitti_length_key(int length_m) {
+  return fmt::format("kitti_{}m_translation_percent", length_m);
+}
+
+std::string path_share_key(int share_percent) {
+  return fmt::format("rpg_{}_translation_percent_mean", share_percent);
+}
+
 const std::vector<Metric>& known_metrics() {
   static const std::vector<Metric> kMetrics = make_metrics();
   return kMetrics;
@@ -263,6 +319,7 @@ std::vector<std::pair<std::string, double>> read_metrics(const std::filesystem::
   try {
     take_accuracy(read_figures(folder.evaluation()), values);
     take_run(read_figures(folder.record()), values);
+    take_checkpoints(read_figures(folder.path / evaluation::kCheckpointsFile), values);
     take_loops(folder, values);
     if (std::filesystem::is_regular_file(folder.frames())) {
       const auto frames = pipeline::FrameTable::read_csv(folder.frames());

@@ -1,6 +1,7 @@
 #include "results/ranking.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -12,6 +13,7 @@
 #include <fmt/ranges.h>
 
 #include "traverse/batch/metric.hpp"
+#include "traverse/files/input_error.hpp"
 
 namespace traverse::batch {
 
@@ -20,6 +22,8 @@ namespace {
 constexpr std::size_t kResamples = 20'000;
 constexpr std::size_t kFewestRecordings = 5;  // of fewer, resamples are mostly the same
 constexpr std::size_t kMostVariants = 60;     // of a grid of thousands nobody asks who differs
+constexpr std::size_t kMostAlongDrives = 16;  // variants; pairs of them, each a bootstrap
+constexpr double kNormalQuantile97 = 1.959963984540054;  // of 0.975
 constexpr double kLevel = 0.05;
 
 /// The mean of a metric over the repeats of each variant on each recording; NaN where none has it.
@@ -121,28 +125,102 @@ double chance_of(const std::vector<float>& a, const std::vector<float>& b) {
   return std::min(1.0, 2 * rarer / static_cast<double>(a.size() + 1));
 }
 
+/// Two variants, by their place in the ranking, and how likely it is that they differ by chance.
+struct RankedPair {
+  double chance;
+  std::size_t a;
+  std::size_t b;
+};
+
 /// Which pairs differ at kLevel after Holm's correction for their number.
-std::vector<std::vector<bool>> pairs_that_differ(const std::vector<std::vector<float>>& means,
-                                                 const std::vector<std::size_t>& order) {
-  struct Pair {
-    double chance;
-    std::size_t a;
-    std::size_t b;
-  };
-  std::vector<Pair> pairs;
-  for (std::size_t a = 0; a < order.size(); ++a) {
-    for (std::size_t b = a + 1; b < order.size(); ++b) {
-      pairs.push_back(Pair{chance_of(means[order[a]], means[order[b]]), a, b});
-    }
-  }
+std::vector<std::vector<bool>> differ_after_holm(std::vector<RankedPair> pairs,
+                                                 std::size_t variants) {
   std::stable_sort(pairs.begin(), pairs.end(),
-                   [](const Pair& x, const Pair& y) { return x.chance < y.chance; });
-  std::vector<std::vector<bool>> differ(order.size(), std::vector<bool>(order.size(), false));
+                   [](const RankedPair& x, const RankedPair& y) { return x.chance < y.chance; });
+  std::vector<std::vector<bool>> differ(variants, std::vector<bool>(variants, false));
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (pairs[k].chance * static_cast<double>(pairs.size() - k) > kLevel) break;
     differ[pairs[k].a][pairs[k].b] = differ[pairs[k].b][pairs[k].a] = true;
   }
   return differ;
+}
+
+std::vector<std::vector<bool>> pairs_that_differ(const std::vector<std::vector<float>>& means,
+                                                 const std::vector<std::size_t>& order) {
+  std::vector<RankedPair> pairs;
+  for (std::size_t a = 0; a < order.size(); ++a) {
+    for (std::size_t b = a + 1; b < order.size(); ++b) {
+      pairs.push_back(RankedPair{chance_of(means[order[a]], means[order[b]]), a, b});
+    }
+  }
+  return differ_after_holm(std::move(pairs), order.size());
+}
+
+/// The first run of each recording and variant that has the metric.
+using RunsByPlace = std::map<std::pair<std::string, std::string>, const Job*>;
+
+/// The difference of two variants over the drives that both have, and its standard deviation.
+struct AlongDrives {
+  double mean = 0;
+  double sigma = 0;
+};
+
+std::optional<AlongDrives> difference_along_drives(const MeansOfRuns& means,
+                                                   const RunsByPlace& runs, std::size_t first,
+                                                   std::size_t second, RunSeries& series) {
+  double sum = 0;
+  double variance = 0;
+  double count = 0;
+  for (std::size_t r = 0; r < means.recordings.size(); ++r) {
+    const auto of_first = runs.find({means.recordings[r], means.variants[first]});
+    const auto of_second = runs.find({means.recordings[r], means.variants[second]});
+    if (of_first == runs.end() || of_second == runs.end()) continue;
+    try {
+      const auto half = series.half_of_difference(*of_first->second, *of_second->second);
+      if (!half) return std::nullopt;
+      variance += std::pow(*half / kNormalQuantile97, 2);
+    } catch (const files::InputError&) {
+      return std::nullopt;  // a run folder that somebody has tidied up
+    }
+    sum += means.values[r][second] - means.values[r][first];
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return AlongDrives{sum / count, std::sqrt(variance) / count};
+}
+
+/// Of few recordings: letters and differences to the first, by what varies along the drives.
+void tell_along_drives(const Results& results, const MeansOfRuns& means,
+                       const std::vector<std::size_t>& order, RunSeries series, Ranking& ranking) {
+  RunsByPlace runs;
+  for (const Job& job : results.jobs()) {
+    const Completion* completion = results.find(job);
+    if (completion == nullptr || !is_usable(completion->outcome)) continue;
+    if (value_of(*completion, ranking.metric))
+      runs.try_emplace({job.recording, job.variant()}, &job);
+  }
+  std::vector<std::size_t> known;  // variants with the metric, in the order of the ranking
+  for (const std::size_t v : order) {
+    if (ranking.variants[v].mean) known.push_back(v);
+  }
+  std::vector<RankedPair> pairs;
+  for (std::size_t a = 0; a < known.size(); ++a) {
+    for (std::size_t b = a + 1; b < known.size(); ++b) {
+      const auto found = difference_along_drives(means, runs, known[a], known[b], series);
+      if (!found) continue;
+      const double chance = found->sigma > 0
+                                ? std::erfc(std::abs(found->mean) / found->sigma / std::sqrt(2.0))
+                                : (found->mean == 0 ? 1.0 : 0.0);
+      pairs.push_back(RankedPair{chance, a, b});
+      if (a > 0) continue;
+      const double half = kNormalQuantile97 * found->sigma;
+      ranking.variants[known[b]].over_first =
+          RankedVariant::Difference{found->mean, found->mean - half, found->mean + half};
+    }
+  }
+  if (pairs.empty()) return;
+  const auto letters = compact_letters(differ_after_holm(std::move(pairs), known.size()));
+  for (std::size_t k = 0; k < known.size(); ++k) ranking.variants[known[k]].letters = letters[k];
 }
 
 bool is_subset(const std::set<std::size_t>& small, const std::set<std::size_t>& large) {
@@ -215,7 +293,8 @@ std::vector<std::string> compact_letters(const std::vector<std::vector<bool>>& d
   return letters;
 }
 
-std::optional<Ranking> rank_variants(const Results& results, const std::string& metric) {
+std::optional<Ranking> rank_variants(const Results& results, const std::string& metric,
+                                     const RunFolderOf& folder_of) {
   const Metric* known = find_metric(metric);
   if (known == nullptr || (!known->lower_is_better && !known->higher_is_better)) {
     return std::nullopt;
@@ -223,6 +302,7 @@ std::optional<Ranking> rank_variants(const Results& results, const std::string& 
   const MeansOfRuns means = means_of_runs(results, metric);
   if (means.variants.size() < 2) return std::nullopt;
   const MeansOfRuns times = means_of_runs(results, "wall_s");
+  const MeansOfRuns frames = means_of_runs(results, "frames_total_ms");
   std::vector<std::vector<double>> ranks;
   for (const auto& values : means.values)
     ranks.push_back(ranks_of(values, known->higher_is_better));
@@ -234,6 +314,8 @@ std::optional<Ranking> rank_variants(const Results& results, const std::string& 
     one.mean = mean_over_recordings(means, v, one.recordings);
     std::size_t timed = 0;
     one.wall_s = mean_over_recordings(times, v, timed);
+    one.frames_s = mean_over_recordings(frames, v, timed);
+    if (one.frames_s) *one.frames_s /= 1000;
     for (const auto& of_recording : ranks) {
       one.mean_rank += of_recording[v] / static_cast<double>(ranks.size());
     }
@@ -252,6 +334,10 @@ std::optional<Ranking> rank_variants(const Results& results, const std::string& 
       one.interval = interval_of(resampled[order[k]]);
       one.letters = letters[k];
     }
+  } else if (RunSeries series(metric, folder_of); folder_of && series.is_known() &&
+                                                  ranks.size() < kFewestRecordings &&
+                                                  means.variants.size() <= kMostAlongDrives) {
+    tell_along_drives(results, means, order, std::move(series), ranking);
   }
   mark_front(known->higher_is_better, ranking.variants);
   std::vector<RankedVariant> sorted;
@@ -263,16 +349,39 @@ std::optional<Ranking> rank_variants(const Results& results, const std::string& 
 page::Table ranking_table(const Ranking& ranking) {
   const Metric& metric = *find_metric(ranking.metric);
   const double none = std::numeric_limits<double>::quiet_NaN();
-  page::Table table("ranking", "Ranking by " + metric.title,
-                    {"pipeline", "mean rank", "95 % from", "95 % to", "not told apart",
-                     with_unit(metric), "recordings", "wall time [s]", "on the front"});
+  const auto any = [&](auto has) {
+    return std::any_of(ranking.variants.begin(), ranking.variants.end(), has);
+  };
+  const bool has_ranks = any([](const auto& one) { return one.interval.has_value(); });
+  const bool has_differences = any([](const auto& one) { return one.over_first.has_value(); });
+  const bool has_frames = any([](const auto& one) { return one.frames_s.has_value(); });
+  std::vector<std::string> heads{"pipeline", "mean rank"};
+  if (has_ranks) heads.insert(heads.end(), {"95 % from", "95 % to"});
+  heads.insert(heads.end(), {"not told apart", with_unit(metric)});
+  if (has_differences) heads.insert(heads.end(), {"more than the first", "95 % from", "95 % to"});
+  heads.insert(heads.end(), {"recordings", "wall time [s]"});
+  if (has_frames) heads.emplace_back("of its frames alone [s]");
+  heads.emplace_back("on the front");
+  page::Table table("ranking", "Ranking by " + metric.title, std::move(heads));
   for (const RankedVariant& one : ranking.variants) {
-    table.add_row({one.variant, page::Cell::fixed(one.mean_rank, 2),
-                   one.interval ? page::Cell::fixed(one.interval->first, 2) : page::Cell(none),
-                   one.interval ? page::Cell::fixed(one.interval->second, 2) : page::Cell(none),
-                   one.letters.empty() ? "–" : one.letters, one.mean.value_or(none),
-                   fmt::format("{} of {}", one.recordings, ranking.recordings),
-                   one.wall_s.value_or(none), one.is_on_front ? "yes" : ""});
+    std::vector<page::Cell> cells{one.variant, page::Cell::fixed(one.mean_rank, 2)};
+    if (has_ranks) {
+      cells.push_back(one.interval ? page::Cell::fixed(one.interval->first, 2) : page::Cell(none));
+      cells.push_back(one.interval ? page::Cell::fixed(one.interval->second, 2) : page::Cell(none));
+    }
+    cells.emplace_back(one.letters.empty() ? "–" : one.letters);
+    cells.emplace_back(one.mean.value_or(none));
+    if (has_differences) {
+      const auto difference = one.over_first.value_or(RankedVariant::Difference{none, none, none});
+      for (const double value : {difference.mean, difference.low, difference.high}) {
+        cells.emplace_back(value);
+      }
+    }
+    cells.emplace_back(fmt::format("{} of {}", one.recordings, ranking.recordings));
+    cells.emplace_back(one.wall_s.value_or(none));
+    if (has_frames) cells.emplace_back(one.frames_s.value_or(none));
+    cells.emplace_back(one.is_on_front ? "yes" : "");
+    table.add_row(std::move(cells));
   }
   return table;
 }
@@ -301,8 +410,10 @@ page::Table fairness_table(const Plan& plan, const Results& results) {
     told.insert(told.end(), pipeline.statements.begin(), pipeline.statements.end());
     table.add_row(
         {pipeline.name,
-         is_command ? "a command" + (command.version.empty() ? "" : ", version " + command.version)
-                    : "the preset " + pipeline.preset,
+         is_command
+             ? "a command" + (command.version.empty() ? "" : ", version " + command.version) +
+                   (command.container ? ", in " + command.container.image : "")
+             : "the preset " + pipeline.preset,
          is_command ? command.frame + (command.extrinsic.empty() ? "" : ", with an extrinsic")
                     : std::string("body"),
          !is_command      ? std::string("as the preset does it")

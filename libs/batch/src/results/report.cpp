@@ -79,10 +79,13 @@ Data headlines(const ReportData& data, const Counts& counts) {
                counts.finished < data.results.jobs().size()
                    ? fmt::format("{} not made yet", data.results.jobs().size() - counts.finished)
                    : "all made");
-  add_headline(list, "Recordings", std::to_string(data.plan.recordings.size()), "", "of the plan");
-  add_headline(
-      list, "Pipelines", std::to_string(data.variants.size()), "",
-      fmt::format("at every point of the grid, {} of the plan", data.plan.pipelines.size()));
+  add_headline(list, "Recordings", std::to_string(data.plan.recordings.size()), "",
+               data.is_of_a_batch() ? "of the plan" : "told apart by their digests");
+  add_headline(list, "Pipelines", std::to_string(data.variants.size()), "",
+               data.is_of_a_batch() ? fmt::format("at every point of the grid, {} of the plan",
+                                                  data.plan.pipelines.size())
+                                    : std::string("with other settings counted anew"));
+  if (!data.is_of_a_batch()) return list;
   add_headline(list, "Work", short_number(counts.run_seconds / 60), "min",
                "wall time of all runs together");
   return list;
@@ -184,7 +187,12 @@ Data failures(const ReportData& data) {
     const std::size_t listed = std::min(jobs.size(), kMostListedRuns);
     for (std::size_t i = 0; i < listed; ++i) {
       Data run;
-      run.set("folder", "runs/" + BatchFolder::run_name(jobs[i]->id));
+      const std::string link = data.link(*jobs[i]);
+      run.set("link", link.empty()
+                          ? Data(false)
+                          : Data(link + (data.is_of_a_batch()                      ? "/log.txt"
+                                         : data.results.find(*jobs[i])->has_report ? "/report.html"
+                                                                                   : "/run.json")));
       run.set("title", jobs[i]->title());
       run.set("separator", i + 1 < listed ? "; "
                            : listed < jobs.size()
@@ -197,16 +205,16 @@ Data failures(const ReportData& data) {
     entry.set("reason", std::get<1>(group));
     entry.set("count", plural(jobs.size(), "run"));
     entry.set("runs", runs);
-    entry.set("last_lines",
-              fmt::format("{}", fmt::join(data.results.find(*jobs.front())->last_lines, "\n")));
+    const auto& last_lines = data.results.find(*jobs.front())->last_lines;
+    entry.set("last_lines", last_lines.empty()
+                                ? Data(false)
+                                : Data(fmt::format("{}", fmt::join(last_lines, "\n"))));
     list.push_back(entry);
   }
   return list;
 }
 
-page::Table made(const ReportData& data) {
-  const pipeline::BuildInfo build = pipeline::build_info();
-  page::Table table("made", "How this was made", {"what", "value"});
+void add_plan(const ReportData& data, page::Table& table) {
   const RunLimits& limits = data.plan.limits;
   table.add_row({"plan", data.plan.is_private ? data.plan.file.filename().string()
                                               : data.plan.file.string()});
@@ -216,6 +224,16 @@ page::Table made(const ReportData& data) {
                              limits.memory_mb > 0 ? fmt::format("{:g} MB", limits.memory_mb)
                                                   : "no memory limit",
                              plural(static_cast<std::size_t>(limits.threads), "thread"))});
+}
+
+page::Table made(const ReportData& data) {
+  const pipeline::BuildInfo build = pipeline::build_info();
+  page::Table table("made", "How this was made", {"what", "value"});
+  if (data.is_of_a_batch()) {
+    add_plan(data, table);
+  } else {
+    table.add_row({"runs", plural(data.results.jobs().size(), "run")});
+  }
   table.add_row({"program", fmt::format("Traverse {}, commit {}, {}, {}", build.version,
                                         build.commit, build.build_type, build.compiler)});
   if (!data.plan.is_private) {
@@ -250,7 +268,7 @@ std::vector<page::Section> sections(const ReportData& data, const Counts& counts
   if (data.baseline) sections.push_back({"baseline", "Against the baseline"});
   sections.push_back({"recordings", "Recordings and pipelines"});
   sections.push_back({"distribution", "Distribution"});
-  if (has_grid) sections.push_back({"sweep", "Parameter sweep"});
+  if (has_grid && data.is_of_a_batch()) sections.push_back({"sweep", "Parameter sweep"});
   if (counts.finished > counts.ok) sections.push_back({"failures", "Runs that are not ok"});
   sections.push_back({"runs", "Runs"});
   sections.push_back({"provenance", "Provenance"});
@@ -259,9 +277,13 @@ std::vector<page::Section> sections(const ReportData& data, const Counts& counts
 
 }  // namespace
 
+std::string ReportData::link(const Job& job) const {
+  return link_of ? link_of(job) : "runs/" + BatchFolder::run_name(job.id);
+}
+
 std::string batch_page(const ReportData& data, const std::filesystem::path& templates) {
   const Counts counts = count(data);
-  const auto ranking = rank_variants(data.results, data.plan.metrics.front());
+  const auto ranking = rank_variants(data.results, data.plan.metrics.front(), data.folder_of);
   const pipeline::Privacy privacy(data.plan.file.parent_path());
   const auto told = [&](const std::string& text) {
     return data.plan.is_private ? privacy.text(text) : text;
@@ -279,11 +301,16 @@ std::string batch_page(const ReportData& data, const std::filesystem::path& temp
   const page::Table leads = leads_table(data.leads);
   parts.set("table_leads", leads.empty() ? Data(false) : leads.data());
   parts.set("table_ranking", ranking ? ranking_table(*ranking).data() : Data(false));
-  parts.set("table_fairness", fairness_table(data.plan, data.results).data());
+  parts.set("table_fairness",
+            (data.fairness ? *data.fairness : fairness_table(data.plan, data.results)).data());
+  parts.set("kind", data.is_of_a_batch() ? "batch" : "comparison");
+  parts.set("is_of_a_batch", data.is_of_a_batch());
   parts.set("limits",
-            fmt::format("Each run had {} and at most {:g} s.",
-                        plural(static_cast<std::size_t>(data.plan.limits.threads), "thread"),
-                        data.plan.limits.time_s));
+            data.is_of_a_batch()
+                ? fmt::format("Each run had {} and at most {:g} s.",
+                              plural(static_cast<std::size_t>(data.plan.limits.threads), "thread"),
+                              data.plan.limits.time_s)
+                : std::string("Threads, machine and what is known of times stand below."));
   if (data.baseline) {
     parts.set("baseline_source", told(data.baseline->source));
     parts.set("baseline_rule", kBaselineRule);
@@ -291,12 +318,12 @@ std::string batch_page(const ReportData& data, const std::filesystem::path& temp
   parts.set("tables", planned_tables(data));
   parts.set("failures", failures(data));
   parts.set("table_made", made(data).data());
-  parts.set("plan", told(data.plan.text));
+  parts.set("plan", data.plan.text.empty() ? Data(false) : Data(told(data.plan.text)));
   parts.set("command", told(fmt::format("{}", fmt::join(data.command, " "))));
 
   page::HtmlPage page;
   page.kind = "batch";
-  page.title = name + " · batch";
+  page.title = name + (data.is_of_a_batch() ? " · batch" : " · comparison");
   page.program_version = pipeline::build_info().version;
   page.sections = sections(data, counts);
   page.report_json = page::text_for_script(report_data_json(data, ranking));

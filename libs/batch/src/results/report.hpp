@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 
 #include "results/baseline.hpp"
 #include "results/lead.hpp"
+#include "results/run_series.hpp"
 #include "results/summary.hpp"
 #include "results/tables.hpp"
 
@@ -24,6 +26,14 @@ struct ReportData {
   const std::vector<ShownTable>& tables;
   std::vector<Lead> leads;  ///< by the metrics of the plan that the best variants have
   std::vector<std::string> command;
+  RunFolderOf folder_of = {};  ///< where the runs are, for what varies along their drives
+  /// From the page to a run's folder; nothing: as in a batch's folder. Empty: there is no way.
+  std::function<std::string(const Job&)> link_of = {};
+  /// Of runs that no batch made: how they were compared, in place of what the plan says.
+  std::optional<page::Table> fairness = {};
+
+  bool is_of_a_batch() const { return !fairness; }
+  std::string link(const Job& job) const;
 };
 
 /// batch.html as text: one page that needs no network. Its tables and charts are made in the

@@ -6,7 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "traverse/batch/batch_folder.hpp"
 #include "traverse/batch/metric.hpp"
 
 namespace traverse::batch {
@@ -67,7 +66,23 @@ Json planned_variants_json(const Results& results) {
   return list;
 }
 
-Json run_json(const Job& job, const Completion* completion, const Plan& plan) {
+/// Drift of a run over each length of stretches, as "lengths" of the page has them; null for a run
+/// without any.
+Json drift_by_length(const std::map<std::string_view, double>& known) {
+  Json drift = Json::array();
+  bool any = false;
+  const auto add = [&](const std::string& key) {
+    const auto value = known.find(key);
+    any = any || value != known.end();
+    drift.push_back(value == known.end() ? Json(nullptr) : Json(value->second));
+  };
+  for (const int length_m : kKittiLengths_m) add(kitti_length_key(length_m));
+  for (const int share : kPathShares_percent) add(path_share_key(share));
+  return any ? drift : Json(nullptr);
+}
+
+Json run_json(const Job& job, const Completion* completion, const ReportData& data) {
+  const Plan& plan = data.plan;
   Json values = Json::array();
   std::map<std::string_view, double> known;
   if (completion != nullptr) known.insert(completion->metrics.begin(), completion->metrics.end());
@@ -77,9 +92,11 @@ Json run_json(const Job& job, const Completion* completion, const Plan& plan) {
   }
   Json run{{"repeat", job.repeat}, {"outcome", nullptr}, {"folder", nullptr}, {"report", false}};
   run["values"] = std::move(values);
+  run["drift"] = drift_by_length(known);
   if (completion != nullptr) {
     run["outcome"] = name_of(completion->outcome);
-    run["folder"] = "runs/" + BatchFolder::run_name(job.id);
+    const std::string link = data.link(job);
+    if (!link.empty()) run["folder"] = link;
     run["report"] = completion->has_report;
   }
   return run;
@@ -96,7 +113,7 @@ Json runs_json(const ReportData& data) {
   }
   Json list = Json::array();
   for (const Job& job : data.results.jobs()) {
-    Json run = run_json(job, data.results.find(job), data.plan);
+    Json run = run_json(job, data.results.find(job), data);
     run["recording"] = recordings.at(job.recording);
     run["variant"] = variants.at(job.variant());
     list.push_back(std::move(run));
@@ -156,8 +173,10 @@ std::string report_data_json(const ReportData& data, const std::optional<Ranking
   for (const PlannedPipeline& pipeline : data.plan.pipelines) {
     json["pipelines"].push_back(pipeline.name);
   }
+  json["lengths"] = {{"kitti_m", kKittiLengths_m}, {"share_percent", kPathShares_percent}};
   json["variants"] = variants_json(data);
   json["planned_variants"] = planned_variants_json(data.results);
+  json["logs"] = data.is_of_a_batch();
   json["budgets"] = Json::array();
   for (const Budget& budget : data.plan.budgets) {
     json["budgets"].push_back({{"metric", budget.metric}, {"most", budget.most}});

@@ -56,6 +56,10 @@ std::vector<std::string_view> cells_of(std::string_view line, char separator) {
   return separator == ' ' ? files::split_words(line) : files::split_cells(line, separator);
 }
 
+/// What is added to a column of whole seconds.
+constexpr std::array<std::string_view, 4> kNanosecondColumns{"nsec", "nsecs", "nanosec",
+                                                             "nanoseconds"};
+
 /// In lower case, without quotes and the marks of a comment; a unit in brackets as a suffix.
 std::string column_name_of(std::string_view cell) {
   std::string name;
@@ -100,6 +104,7 @@ std::optional<ColumnMeaning> meaning_of(const std::string& name) {
 struct Layout {
   std::array<std::optional<std::size_t>, 8> at;
   std::optional<geometry::UnixTimeUnit> unit;
+  std::optional<std::size_t> nanoseconds;  ///< beside a column of whole seconds
   std::size_t columns = 0;
 
   void add(const ColumnMeaning& meaning, std::size_t index) {
@@ -122,12 +127,19 @@ std::string_view without_mark(std::string_view line) {
   return begin == std::string_view::npos ? std::string_view() : line.substr(begin);
 }
 
+bool is_of_nanoseconds(const std::string& name) {
+  return std::find(kNanosecondColumns.begin(), kNanosecondColumns.end(), name) !=
+         kNanosecondColumns.end();
+}
+
 Layout layout_of_header(std::string_view line) {
   const auto cells = cells_of(line, separator_of(line));
   Layout layout;
   layout.columns = cells.size();
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (const auto meaning = meaning_of(column_name_of(cells[i]))) layout.add(*meaning, i);
+    const std::string name = column_name_of(cells[i]);
+    if (const auto meaning = meaning_of(name)) layout.add(*meaning, i);
+    if (is_of_nanoseconds(name) && !layout.nanoseconds) layout.nanoseconds = i;
   }
   return layout;
 }
@@ -161,7 +173,12 @@ Layout layout_as_named(const std::string& columns, const std::optional<std::stri
     const std::string_view item = items[i];
     if (item == kOtherColumn) continue;
     const std::size_t equals = item.find('=');
-    const auto meaning = meaning_of(column_name_of(item.substr(0, equals)));
+    const std::string name = column_name_of(item.substr(0, equals));
+    if (equals == std::string_view::npos && is_of_nanoseconds(name)) {
+      layout.nanoseconds = i;
+      continue;
+    }
+    const auto meaning = meaning_of(name);
     if (!meaning) throw fail(files::in_quotes(item));
     std::size_t index = i;
     if (equals != std::string_view::npos) {
@@ -199,6 +216,10 @@ bool names_columns(std::string_view line) {
   return is_header(names) && layout_of_header(names).missing().empty();
 }
 
+bool names_nanoseconds_beside_seconds(std::string_view line) {
+  return names_columns(line) && layout_of_header(without_mark(line)).nanoseconds.has_value();
+}
+
 void read_named_columns(files::LineReader& reader, const std::string& columns,
                         const PoseTaker& take, TrajectoryReading& reading) {
   std::optional<std::string> header;
@@ -232,7 +253,15 @@ void read_named_columns(files::LineReader& reader, const std::string& columns,
     const auto number = [&](std::size_t k) { return finite_number(reader, cells[*layout.at[k]]); };
     const Eigen::Vector3d p(number(1), number(2), number(3));
     const Eigen::Vector4d q(number(4), number(5), number(6), number(7));
-    poses.add(reader, stamp_in(reader, cells[*layout.at[0]], layout), p, q);
+    Stamp stamp = stamp_in(reader, cells[*layout.at[0]], layout);
+    if (layout.nanoseconds) {
+      const auto more = files::parse_integer(cells[*layout.nanoseconds]);
+      if (!more || *more < 0 || *more >= 1'000'000'000) {
+        throw reader.error("nanoseconds of a second", files::in_quotes(cells[*layout.nanoseconds]));
+      }
+      stamp.nanoseconds += *more;
+    }
+    poses.add(reader, stamp, p, q);
   }
   reading.notes = poses.notes();
 }

@@ -10,6 +10,8 @@ namespace traverse::dataset {
 
 /// Whether a line is a header that names the columns of poses.
 bool names_columns(std::string_view line);
+/// Whether it names whole seconds and nanoseconds in two columns too, also in a comment.
+bool names_nanoseconds_beside_seconds(std::string_view line);
 
 /// A table whose columns are named, by its header or by `columns` (TrajectoryChoice).
 /// \throws files::InputError

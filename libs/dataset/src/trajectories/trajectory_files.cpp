@@ -134,11 +134,22 @@ std::size_t frame_number(const LineReader& reader, std::string_view word,
   return static_cast<std::size_t>(number->nanoseconds);
 }
 
+/// The Unix time before a pose, as MulRan has it, which no frame number is as large as.
+std::optional<Stamp> stamp_before_matrix(std::string_view word) {
+  const auto number = files::parse_double(word);
+  const auto unit = number ? geometry::unix_time_unit(*number) : std::nullopt;
+  return unit ? geometry::parse_unix_time(word, *unit) : std::nullopt;
+}
+
 std::vector<std::size_t> read_kitti(LineReader& reader, const PoseTaker& take) {
+  std::optional<Stamp> last;
   std::vector<std::size_t> frame_numbers;
   std::size_t columns = 0;
+  bool any = false;
   while (reader.next()) {
-    const Words words = files::split_words(reader.line());
+    const bool has_commas = reader.line().find(',') != std::string::npos;
+    const Words words =
+        has_commas ? files::split_cells(reader.line(), ',') : files::split_words(reader.line());
     if (columns == 0)
       columns = words.size() == kNumberedKittiColumns ? words.size() : kKittiColumns;
     if (words.size() != columns) {
@@ -148,7 +159,19 @@ std::vector<std::size_t> read_kitti(LineReader& reader, const PoseTaker& take) {
                          fmt::format("{}", words.size()));
     }
     const std::size_t begin = columns - kKittiColumns;
-    if (begin > 0) frame_numbers.push_back(frame_number(reader, words[0], frame_numbers));
+    std::optional<Stamp> stamp;
+    if (begin > 0) stamp = stamp_before_matrix(words[0]);
+    if (begin > 0 && !stamp) {
+      frame_numbers.push_back(frame_number(reader, words[0], frame_numbers));
+    }
+    if (stamp.has_value() != last.has_value() && any) {
+      throw reader.error("a time before every pose, or before none", files::in_quotes(words[0]));
+    }
+    if (stamp && last && *stamp < *last) {
+      throw reader.error("times that do not go back", files::in_quotes(words[0]));
+    }
+    last = stamp;
+    any = true;
     Pose3 pose;
     for (Eigen::Index row = 0; row < 3; ++row) {
       const std::size_t first = begin + static_cast<std::size_t>(4 * row);
@@ -158,7 +181,7 @@ std::vector<std::size_t> read_kitti(LineReader& reader, const PoseTaker& take) {
     if (!is_rotation(pose.rotation)) {
       throw reader.error("a rotation matrix in columns 1-3, 5-7, 9-11", "another matrix");
     }
-    take(std::nullopt, pose);
+    take(stamp, pose);
   }
   return frame_numbers;
 }
@@ -201,18 +224,24 @@ TrajectoryReading detect(const std::filesystem::path& file) {
     return {TrajectoryFormat::kBag, "its first bytes are a bag's", {}, {}};
   }
   LineReader reader(file);
-  if (!reader.next()) {
-    throw files::InputError(file, files::Place::whole_file(), "at least one pose", "none");
-  }
+  bool has_two_times = false;  // in a comment, where other headers are left alone
+  do {
+    if (!reader.next(LineReader::Comments::kGive)) {
+      throw files::InputError(file, files::Place::whole_file(), "at least one pose", "none");
+    }
+    has_two_times = has_two_times || names_nanoseconds_beside_seconds(reader.line());
+  } while (reader.line().starts_with('#'));
   const auto as = [](TrajectoryFormat format, std::string reason) {
     return TrajectoryReading{format, std::move(reason), {}, {}};
   };
   if (is_g2o(reader.line())) return as(TrajectoryFormat::kG2o, "lines that begin with a word");
-  if (names_columns(reader.line())) {
+  if (has_two_times || names_columns(reader.line())) {
     return as(TrajectoryFormat::kCsv, "a header that names the columns");
   }
   if (reader.line().find(',') != std::string::npos) {
-    return as(TrajectoryFormat::kEuroc, "commas between the columns");
+    return files::split_cells(reader.line(), ',').size() == kNumberedKittiColumns
+               ? as(TrajectoryFormat::kKitti, "12 columns after a time, commas between")
+               : as(TrajectoryFormat::kEuroc, "commas between the columns");
   }
   const std::size_t columns = files::split_words(reader.line()).size();
   if (columns == kTumColumns) return as(TrajectoryFormat::kTum, "8 columns between blanks");
@@ -221,7 +250,7 @@ TrajectoryReading detect(const std::filesystem::path& file) {
     return as(TrajectoryFormat::kKitti, "12 columns after a frame number");
   }
   throw reader.error(
-      "a pose with 8 columns (TUM), 12 columns or 13 with a frame number (KITTI), commas "
+      "a pose with 8 columns (TUM), 12 columns or 13 with a frame number or a time (KITTI), commas "
       "(EuRoC), a header with x, y, z, qx, qy, qz, qw among its names (CSV), VERTEX_SE3:QUAT (g2o) "
       "or a bag");
 }

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
+#include "traverse/evaluation/checkpoints.hpp"
 #include "traverse/evaluation/worst_segments.hpp"
 #include "traverse/pipeline/run_contents.hpp"
 
@@ -13,6 +15,8 @@ namespace traverse::report {
 /// A run folder, read and checked.
 struct RunData : pipeline::RunContents {
   nlohmann::json record;  ///< run.json
+  /// Residuals at surveyed points, where the run was held against them.
+  std::optional<evaluation::CheckpointEvaluation> checkpoints = {};
 
   std::string recording_name() const { return record.at("recording").at("name"); }
   std::string pipeline_name() const { return record.at("pipeline"); }

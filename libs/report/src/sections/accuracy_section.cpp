@@ -80,6 +80,21 @@ Table kitti_table(const evaluation::KittiDrift& kitti, const std::string& id, co
   return table;
 }
 
+Table sub_trajectories_table(const evaluation::Comparison& comparison) {
+  Table table("sub_trajectories", "Relative error by length of the stretch",
+              {"length [m]", "translation, mean [%]", "median [%]", "max [%]", "mean [m]",
+               "rotation, mean [deg]", "mean [deg/100 m]", "yaw, mean [deg]",
+               "pitch and roll, mean [deg]", "stretches"});
+  for (const evaluation::SubTrajectoryErrors& errors : comparison.sub_trajectories) {
+    const auto& percent = errors.translation_percent;
+    table.add_row({errors.length_m, percent.mean, percent.median, percent.max,
+                   errors.translation_m.mean, errors.rotation_deg.mean,
+                   100 * errors.rotation_deg_per_m.mean, errors.yaw_deg.mean,
+                   errors.gravity_deg.mean, Cell::count(percent.count)});
+  }
+  return table;
+}
+
 Table path_table(const evaluation::PathFigures& path) {
   Table table("path", "Path", {"figure", "value", "unit"});
   table.add_row({"path of the estimate", path.estimate_m, "m"});
@@ -136,6 +151,11 @@ void add_accuracy(const RunData& run, Model& model) {
     model.add_table(kitti_table(*kitti, "kitti_by_length", "length [m]", kitti->by_length));
     model.add_table(kitti_table(*kitti, "kitti_by_speed", "speed [m/s]", kitti->by_speed));
     model.add_text("kitti_how", evaluation::title(*kitti));
+  }
+  model.page.set("has_sub_trajectories", !comparison.sub_trajectories.empty());
+  if (!comparison.sub_trajectories.empty()) {
+    model.add_table(sub_trajectories_table(comparison));
+    model.add_text("sub_trajectories_how", evaluation::sub_trajectories_title(comparison));
   }
   model.add_table(undefined_table(comparison));
 }

@@ -43,7 +43,7 @@ void draw_from_run(const ReportInput& input, FigureMaker& maker) {
   kDraw(input.run, maker);
 }
 
-constexpr std::array<ReportSection, 12> kReportSections{{
+constexpr std::array<ReportSection, 13> kReportSections{{
     {"verdict", "Verdict", always, fill_verdict},
     {"trajectory", "Trajectory", always,
      [](const ReportInput& input, Model& model) {
@@ -53,6 +53,7 @@ constexpr std::array<ReportSection, 12> kReportSections{{
     {"loops", "Loops", closes_loops, fill_from_run<add_loops>, draw_from_run<add_loop_figures>},
     {"error", "Error", has_comparison, fill_from_run<add_accuracy>,
      draw_from_run<add_error_figures>, add_error_charts},
+    {"checkpoints", "Surveyed points", has_checkpoints, fill_from_run<add_checkpoints>},
     {"navigation", "Navigation", is_navigation_run, fill_from_run<add_navigation>,
      draw_from_run<add_navigation_figures>, add_navigation_charts},
     {"worst", "Worst segments", always,

@@ -17,6 +17,9 @@ void add_headlines(const RunData& run, const std::vector<RunFigure>& figures,
                    const BudgetResult* budget, Model& model);
 /// Of a run that has a comparison.
 void add_accuracy(const RunData& run, Model& model);
+/// Whether the run was held against surveyed points, a prism or fixes.
+bool has_checkpoints(const RunData& run);
+void add_checkpoints(const RunData& run, Model& model);
 /// Nothing where the map was not scored.
 void add_map_sharpness(const RunData& run, Model& model);
 void add_worst_segments(const RunData& run, const evaluation::WorstSegments& worst, Model& model);

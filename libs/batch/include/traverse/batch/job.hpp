@@ -23,6 +23,7 @@ struct Job {
   /// what it writes (`trajectory`) takes the place of kTrajectory in `arguments`. Empty: a preset.
   std::string command = {};
   std::string trajectory = {};  ///< path or pattern
+  bool in_container = false;    ///< then its processes are not all of its group
   RunLimits limits;
 
   static constexpr const char* kTrajectory = "{trajectory}";

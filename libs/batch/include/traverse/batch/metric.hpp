@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -17,6 +18,13 @@ struct Metric {
   bool is_measured_time = false;  ///< of the machine, other on every repeat; so is memory
   bool higher_is_better = false;  ///< then a budget is the least that it may be
 };
+
+/// Lengths of stretches by which runs tell their drift: metres of KITTI's, percent of the
+/// reference's path of rpg's.
+inline constexpr std::array<int, 8> kKittiLengths_m{100, 200, 300, 400, 500, 600, 700, 800};
+inline constexpr std::array<int, 5> kPathShares_percent{10, 20, 30, 40, 50};
+std::string kitti_length_key(int length_m);     ///< "kitti_100m_translation_percent"
+std::string path_share_key(int share_percent);  ///< "rpg_10_translation_percent_mean"
 
 /// Every metric, in the order of the columns of results.csv.
 const std::vector<Metric>& known_metrics();

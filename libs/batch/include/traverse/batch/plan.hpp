@@ -37,10 +37,13 @@ struct PlannedRecording {
   std::string text;            ///< above its tables; may be empty
   std::filesystem::path path;  ///< absolute; empty as long as a generated one is not made
   std::optional<GeneratedRecording> generated;
-  std::filesystem::path statements_file;  ///< absolute, or empty
-  std::vector<std::string> statements;    ///< "motion_compensated=true"
-  std::filesystem::path reference;        ///< absolute, or empty
-  std::string reference_frame;            ///< body, lidar, camera, or empty
+  std::filesystem::path statements_file;   ///< absolute, or empty
+  std::vector<std::string> statements;     ///< "motion_compensated=true"
+  std::filesystem::path reference;         ///< absolute, or empty
+  std::string reference_frame;             ///< body, lidar, camera, or empty
+  std::filesystem::path checkpoints = {};  ///< absolute, or empty
+  std::vector<double> point = {};          ///< what stood over them, body frame; or empty
+  double points_time_offset_s = 0;         ///< added to their stamps
   std::int64_t first = 0;
   std::int64_t last = -1;              ///< included; -1: to the end
   std::vector<std::string> pipelines;  ///< that it goes through, by name; empty: all

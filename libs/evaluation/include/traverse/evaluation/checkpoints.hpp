@@ -27,9 +27,12 @@ struct Checkpoint {
   bool is_control = false;  ///< it takes part in the alignment; others check it
 };
 
-/// Reads a table with a header: name; stamp_s, or from_s and to_s, or stop; e_m, n_m, h_m; sigma_m,
-/// or sigma_e_m, sigma_n_m, sigma_h_m; use (control or check). Sigmas and use may be absent;
-/// without use all are checks. \throws files::InputError naming line, expectation and finding
+/// Reads a table with a header: name; stamp_s, or from_s and to_s, or stop; e_m, n_m, h_m, or
+/// latitude_deg, longitude_deg, altitude_m, which become east, north and height at the first point;
+/// sigma_m, or sigma_e_m, sigma_n_m, sigma_h_m (east_m, north_m, up_m as the fixes of a receiver
+/// are written); use (control or check). Without names (a prism that is followed, a receiver's
+/// fixes) points are numbered by their lines; sigmas and use may be absent; without use all are
+/// checks. \throws files::InputError naming line, expectation and finding
 std::vector<Checkpoint> read_checkpoints(const std::filesystem::path& file);
 
 struct CheckpointOptions {
@@ -37,7 +40,8 @@ struct CheckpointOptions {
   /// if there are any, else by all; each counts by the inverse of its mean variance.
   AlignmentMode alignment = AlignmentMode::kSe3;
   Eigen::Vector3d p_body = Eigen::Vector3d::Zero();  ///< what stood over the points [m]
-  double max_gap_s = 0.5;  ///< poses further apart are not interpolated between
+  double max_gap_s = 0.5;    ///< poses further apart are not interpolated between
+  double time_offset_s = 0;  ///< added to the stamps of the points: of an instrument's own clock
 };
 
 struct CheckpointResidual {
@@ -56,6 +60,14 @@ struct CheckpointFigures {
   double p95_vertical_m = 0;
   double survey_horizontal_m = 0;  ///< rms of the survey's own deviations, as far as they are told
   double survey_vertical_m = 0;
+  /// Root mean square of the residuals over their deviations, of east and north together and of
+  /// height: about 1 where the reference's own uncertainty explains them. Nothing unless all have
+  /// deviations.
+  std::optional<double> normalised_horizontal;
+  std::optional<double> normalised_vertical;
+  /// Root of the mean squares by the inverse of the variances: what is known better counts more.
+  std::optional<double> weighted_horizontal_m;
+  std::optional<double> weighted_vertical_m;
 };
 
 struct CheckpointEvaluation {
@@ -85,5 +97,14 @@ CheckpointEvaluation evaluate_checkpoints(const geometry::Trajectory& T_map_body
 /// As text for people, and as a JSON document.
 std::string to_table(const CheckpointEvaluation& evaluation);
 std::string to_json(const CheckpointEvaluation& evaluation);
+
+/// What to_json() wrote into a file. \throws files::InputError naming the file and the key
+CheckpointEvaluation read_checkpoint_evaluation(const std::filesystem::path& file);
+
+/// Of a run, in its folder.
+inline constexpr const char* kCheckpointsFile = "checkpoints.json";
+
+/// "SE(3), by 4 control points", "none: the estimate as it is".
+std::string describe_alignment(const CheckpointEvaluation& evaluation);
 
 }  // namespace traverse::evaluation

@@ -14,6 +14,7 @@
 #include "traverse/evaluation/kitti_drift.hpp"
 #include "traverse/evaluation/path_figures.hpp"
 #include "traverse/evaluation/rpe.hpp"
+#include "traverse/evaluation/sub_trajectories.hpp"
 #include "traverse/evaluation/trajectory_view.hpp"
 
 namespace traverse::evaluation {
@@ -26,6 +27,7 @@ struct EvaluationOptions {
   std::vector<Relation> rpe_relations{Relation::kTranslation, Relation::kAngleDeg};
   std::vector<RpeOptions> rpe;
   KittiDriftOptions kitti;
+  std::vector<double> sub_trajectory_lengths_m;  ///< empty: sub_trajectory_lengths()
   /// An RPE without a pair is an EvaluationError; if false it is listed in Comparison::undefined.
   bool rpe_must_exist = true;
 };
@@ -65,7 +67,8 @@ struct Comparison {
   std::optional<ErrorSplit> split;  ///< of the position errors; nothing where the reference stands
   std::vector<Rpe> rpe;             ///< option after option, each with all relations
   std::optional<KittiDrift> kitti;  ///< of the poses as they are, not aligned
-  PathFigures path;                 ///< of the poses as they are, not aligned
+  std::vector<SubTrajectoryErrors> sub_trajectories;  ///< of the poses as they are, but scaled
+  PathFigures path;                                   ///< of the poses as they are, not aligned
   std::vector<Undefined> undefined;
   /// Why the figures may stand for little: few poses that found a match.
   std::vector<std::string> warnings;

@@ -39,6 +39,9 @@ namespace traverse::evaluation {
 ///                    "per_segment": {"first": [], "last": [], "length_m": [],
 ///                                    "translation_percent": [], "rotation_deg_per_m": [],
 ///                                    "speed_mps": []}},
+///   "sub_trajectories": null | {"lengths": [{"length_m", "translation_m": STATS,
+///                               "translation_percent", "rotation_deg", "rotation_deg_per_m",
+///                               "yaw_deg", "gravity_deg"}], "how"},
 ///   "path": {"estimate_m", "reference_m", "end_error_m", "end_error_percent", "end_rotation_deg",
 ///            "how"},
 ///   "consistency": null | {"mme", "mpv_m", "queries", "scans", "points", "points_are", "how",
@@ -47,7 +50,8 @@ namespace traverse::evaluation {
 ///   "warnings": []
 /// }
 /// STATS: {"rmse", "mean", "median", "std", "min", "max", "sse", "count"}; PART: {"rmse", "mean",
-/// "max"}. Files from before version 0.2 have no "split". Times are seconds,
+/// "max"}. Files from before version 0.2 have no "split" and
+/// no "sub_trajectories". Times are seconds,
 /// stamps whole nanoseconds; indices in rpe and kitti count the elements of association.per_pair.
 std::string to_json(const Evaluation& evaluation);
 

@@ -7,6 +7,12 @@
 /// How a figure was made, in words, to stand beside it wherever it is shown.
 namespace traverse::evaluation {
 
+/// Whose definition a figure follows, and is checked against.
+inline constexpr const char* kRuleOfApe = "by evo's rule";
+inline constexpr const char* kRuleOfRpe = "by evo's rule";
+inline constexpr const char* kRuleOfKittiDrift = "by the rule of KITTI's devkit";
+inline constexpr const char* kRuleOfSubTrajectories = "by the rule of rpg_trajectory_evaluation";
+
 /// "514 pairs by stamp, at most 0.01 s apart", "154 pairs by index".
 std::string describe(const Association& association);
 /// "SE(3) alignment", "Sim(3) alignment on the first 50 poses, scale 0.980412", "no alignment".
@@ -16,11 +22,13 @@ std::string describe(const Alignment& alignment, std::size_t matches);
 /// "10 frames, all pairs of the estimate".
 std::string describe(const RpeOptions& options);
 
-/// "APE translation part, SE(3) alignment, 514 pairs".
+/// "APE translation part, SE(3) alignment, 514 pairs, by evo's rule".
 std::string title(const Ape& ape, const Comparison& comparison);
-/// "APE translation part, aligned at the first pose, 514 pairs", of Comparison::ape_at_origin.
+/// "APE translation part, aligned at the first pose, 514 pairs, by evo's rule", of
+/// Comparison::ape_at_origin.
 std::string title_at_origin(const Ape& ape);
-/// "RPE translation part, 10 frames, consecutive pairs of the estimate, SE(3) alignment, 51 pairs".
+/// "RPE translation part, 10 frames, consecutive pairs of the estimate, SE(3) alignment, 51
+/// pairs, by evo's rule".
 std::string title(const Rpe& rpe, const Comparison& comparison);
 /// "position error along, across and up the path, SE(3) alignment, 514 pairs".
 std::string split_title(const Comparison& comparison);
@@ -28,8 +36,11 @@ std::string split_title(const Comparison& comparison);
 /// does.
 std::string alternation_note(const Comparison& comparison);
 /// "KITTI drift, camera frame, no alignment, 131 segments of 100 to 800 m, one start every 10
-/// poses, 0.1 s a pose".
+/// poses, 0.1 s per pose, by the rule of KITTI's devkit".
 std::string title(const KittiDrift& kitti);
+/// "relative errors by length, stretches from every pose of the reference, at most 20 % off the
+/// length, no alignment", with the scale where there is one.
+std::string sub_trajectories_title(const Comparison& comparison);
 /// "path over 514 pairs, no alignment; closing error: distance of the last poses where the first
 /// coincide, in % of the reference's path where that is 10 m or more".
 std::string path_title(const Comparison& comparison);

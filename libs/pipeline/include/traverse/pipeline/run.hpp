@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "traverse/dataset/source.hpp"
+#include "traverse/geometry/trajectory.hpp"
 #include "traverse/pipeline/registry.hpp"
 #include "traverse/pipeline/run_folder.hpp"
 #include "traverse/pipeline/run_record.hpp"
@@ -26,7 +27,10 @@ struct RunOptions {
   /// What was stated about the recording, to hold from any folder: dataset::lasting_statements().
   std::vector<std::string> statements;
   std::filesystem::path place;  ///< where the folder will stand in the end; empty: where it is
-  bool is_private = false;      ///< the record tells neither whose machine it was nor its paths
+  /// What else is written of the estimate, before the files' digests are taken; it may throw.
+  std::function<void(const geometry::Trajectory& T_map_body, const RunFolder& folder)> also_write =
+      {};
+  bool is_private = false;  ///< the record tells neither whose machine it was nor its paths
 };
 
 /// What a run tells while it works.
