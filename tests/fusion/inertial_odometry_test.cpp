@@ -119,16 +119,17 @@ TEST(InertialOdometry, WhileItStandsOneScanIsAllThatTheMapHas) {
   simulation::Drive parked;
   parked.speed_mps = 0;
   parked.sway = 0;
-  const SimulatedDrive drive(simulation::street(60, 1), 20, parked);
+  const SimulatedDrive drive(simulation::street(60, 1), 13, parked);
   const auto imu =
       testing::simulated_imu([&](double t) { return drive.drive.pose(t); }, sensors.p_lidar_imu,
                              -0.1, 2.1, kGyroBias, kAccelerometerBias);
   InertialOdometryOptions options;
   options.lidar.start.scans = 2;
+  options.start.stand_still.seconds = 0.5;
   InertialOdometry odometry(options, drive.scanner.profile, false);
   odometry.mount(sensors.rig, sensors.rig.sensors[0]);
   const auto frames = testing::frames_of(odometry, drive, imu);
-  ASSERT_EQ(frames.size(), 20U);
+  ASSERT_EQ(frames.size(), 13U);
   ASSERT_GE(count_fused(frames), 5U) << note_of(odometry);
   const std::size_t alone = frames.size() - count_fused(frames) - 1;
   EXPECT_LT(frames[alone + 2].map_points, frames[alone].map_points);

@@ -25,6 +25,15 @@ Matrix6 unseen_part(const lidar::Observability& seen) {
 
 }  // namespace
 
+Matrix6 LidarUncertainty::first_change() {
+  constexpr double kTurn = 0.01;  // rad/s from scan to scan
+  constexpr double kSpeed = 0.1;  // m/s
+  Matrix6 change = Matrix6::Zero();
+  change.diagonal().head<3>().setConstant(kTurn * kTurn);
+  change.diagonal().tail<3>().setConstant(kSpeed * kSpeed);
+  return change;
+}
+
 void LidarUncertainty::add(ScanEvidence evidence, const lidar::Observability& seen,
                            const geometry::Pose3& T_map_lidar, const geometry::Twist& speed_change,
                            double seconds) {

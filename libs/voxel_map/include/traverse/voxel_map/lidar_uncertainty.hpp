@@ -24,6 +24,7 @@ class LidarUncertainty {
   const PoseUncertainty& pose() const { return pose_; }
 
  private:
+  static lidar::Matrix6 first_change();
   lidar::Matrix6 growth(const geometry::Pose3& T_map_lidar, const lidar::Matrix6& unseen,
                         double seconds);
 
@@ -31,8 +32,9 @@ class LidarUncertainty {
   // Changes of speed from scan to scan, in the axes of the lidar: alike for a second.
   lidar::Vector6 changing_ = lidar::Vector6::Zero();
   double changing_weight_ = 0;
-  lidar::Matrix6 change_ = lidar::Matrix6::Zero();
-  double change_weight_ = 0;
+  // Before any was seen as much as vehicles do, counted as one.
+  lidar::Matrix6 change_ = first_change();
+  double change_weight_ = 1;
   // What the speed is off by where it is not seen, and what it has to do with the pose's error.
   lidar::Matrix6 speed_ = lidar::Matrix6::Zero();
   lidar::Matrix6 pose_by_speed_ = lidar::Matrix6::Zero();
