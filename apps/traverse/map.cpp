@@ -34,6 +34,9 @@ constexpr const char* kMapExamples = R"(Examples:
   traverse map RUN -o MAP                        map.ply, map.simplemap, grid.png and grid.yaml
   traverse map RUN -o MAP --set voxel_m=0.2 --attributes
                                                  coarser; time, ring and keyframe of every point
+  traverse map RUN -o MAP --las                  map.las too: UTM grid, GPS time, intensity, rings
+  traverse map RUN -o MAP --las --set las_frame=local
+                                                 its coordinates in the map frame
   traverse map RUN -o MAP --keep-moving --no-grid
                                                  all points, no occupancy grid
   traverse map other.simplemap -o MAP            from a simple map of another MRPT program
@@ -44,7 +47,8 @@ scans that look alike are registered, and a pose graph brings all keyframes toge
 rays of other keyframes pass through, passing cars above all, are left out. DIR must be new or empty,
 or an earlier map and nothing else, which is replaced when the new one is complete. grid.yaml opens in ROS'
 map servers, map.ply in CloudCompare and MeshLab. A run with GNSS gives a map in east, north and
-up; origin.json says where on earth.)";
+up; origin.json says where on earth, and map.las is in the UTM zone of that origin with heights above
+the ellipsoid. LAZ is not written; `las2las -i map.las -o map.laz` of LAStools compresses it.)";
 
 struct MapSettings {
   mapping::MapOptions map;
@@ -56,6 +60,7 @@ struct MapArguments {
   std::string destination;
   std::vector<std::string> assignments;
   bool attributes = false;
+  bool las = false;
   bool keep_moving = false;
   bool no_grid = false;
 };
@@ -79,6 +84,7 @@ MapSettings settings_from(const MapArguments& arguments) {
   MapSettings settings;
   mapping::MapOptions& options = settings.map;
   options.attributes = arguments.attributes;
+  options.las = arguments.las;
   options.remove_moving = !arguments.keep_moving;
   options.with_grid = !arguments.no_grid;
   config::Document document;
@@ -115,7 +121,10 @@ std::vector<mapping::MapKeyframe> keyframes_of(const std::vector<std::string>& r
                                                const mapping::MergeOptions& options,
                                                StageBars& bars) {
   std::vector<std::vector<mapping::MapKeyframe>> by_run;
-  for (const std::string& run : runs) by_run.push_back(pipeline::read_map_keyframes(run));
+  for (const std::string& run : runs) {
+    auto& keyframes = by_run.emplace_back(pipeline::read_map_keyframes(run));
+    for (auto& keyframe : keyframes) keyframe.run = static_cast<std::uint16_t>(by_run.size() - 1);
+  }
   if (by_run.size() == 1) return std::move(by_run.front());
   mapping::MergedRuns merged;
   try {
@@ -177,6 +186,12 @@ void make_map(const MapArguments& arguments) {
   bars.finish();
   fmt::print("{} keyframes, {} points in {}\n", summary.keyframes, summary.points,
              folder.points().string());
+  if (options.las) {
+    fmt::print("{}: {}, {}\n", folder.las().string(), summary.las_frame,
+               summary.las_has_gps_time
+                   ? "adjusted standard GPS time"
+                   : "times of the recording's own clock, for its stamps are no dates");
+  }
   if (options.remove_moving) {
     fmt::print("{} points of moving objects left out\n", summary.removed_points);
   }
@@ -211,6 +226,7 @@ void add_map(CLI::App& app) {
       "list what --set takes, with its value and its meaning");
   map->add_flag("--attributes", arguments->attributes,
                 "time, ring and keyframe of each point beside its intensity");
+  map->add_flag("--las", arguments->las, "the points as LAS 1.4 too: map.las");
   map->add_flag("--keep-moving", arguments->keep_moving, "leave moving objects in");
   map->add_flag("--no-grid", arguments->no_grid, "no occupancy grid");
   map->footer(kMapExamples);

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,8 @@
 
 #include "traverse/dataset/point_cloud_file.hpp"
 #include "traverse/files/text_file.hpp"
+#include "traverse/geodesy/local_tangent_plane.hpp"
+#include "traverse/mapping/map_origin.hpp"
 
 #include "end_to_end/program.hpp"
 #include "temporary_folder.hpp"
@@ -94,6 +98,50 @@ TEST_F(MapCommand, MergesRunsThatOverlap) {
   ASSERT_EQ(result.status, 0) << result.messages;
   expect_point_attributes(dataset::read_point_cloud(path("merged") + "/map.ply"));
   EXPECT_THAT(result.output, HasSubstr("2 runs brought together"));
+}
+
+/// What tests/readers/list_las.mjs prints, as words; none where node or its packages are not there.
+std::vector<std::string> words_of_other_readers(const std::string& las) {
+  const std::string readers = TRAVERSE_TEST_READERS;
+  const std::string output = las + ".txt";
+  std::vector<std::string> words;
+  if (!fs::exists(fs::path(readers) / "node_modules/copc")) return words;
+  const std::string command = "node " + readers + "/list_las.mjs " + las + " > " + output;
+  if (std::system(command.c_str()) != 0) return words;
+  std::istringstream text(files::read_text(output));
+  for (std::string word; text >> word;) words.push_back(word);
+  return words;
+}
+
+TEST_F(MapCommand, OtherReadersFindThePointsOfALasFileAtTheirPlaceOnEarth) {
+  const ProgramResult result =
+      run_program("map " + path("run1") + " --las --no-grid -o " + path("las"));
+  ASSERT_EQ(result.status, 0) << result.messages;
+  EXPECT_THAT(result.output,
+              HasSubstr("map.las: WGS 84 / UTM zone 32N, heights above the ellipsoid"));
+  EXPECT_THAT(result.output, HasSubstr("adjusted standard GPS time"));
+  const std::vector<std::string> words = words_of_other_readers(path("las/map.las"));
+  if (words.empty()) {
+    GTEST_SKIP() << "node with copc and @loaders.gl/las is not there; `scripts/dependencies test` "
+                    "installs them where npm is";
+  }
+  const auto cloud = dataset::read_point_cloud(path("las/map.ply"));
+  EXPECT_EQ(words[0], "copc");
+  EXPECT_EQ(words[1], std::to_string(cloud.size()));
+  // The last point, by another way than the program's: geodetic coordinates, then the projection.
+  const geodesy::LocalTangentPlane plane(mapping::read_map_origin(path("las/origin.json")));
+  Eigen::Vector3d enu;
+  int axis = 0;
+  for (const char* field : {"x", "y", "z"}) {
+    enu[axis++] = dataset::to_doubles(*cloud.find(field)).back();
+  }
+  const geodesy::Utm utm = geodesy::to_utm(plane.to_geodetic(enu));
+  const std::size_t n = words.size();
+  EXPECT_EQ(words[n - 8], "laz-rs");
+  EXPECT_EQ(words[n - 7], std::to_string(cloud.size()));
+  EXPECT_NEAR(std::stod(words[n - 3]), utm.easting_m, 0.001);
+  EXPECT_NEAR(std::stod(words[n - 2]), utm.northing_m, 0.001);
+  EXPECT_NEAR(std::stod(words[n - 1]), utm.altitude_m, 0.001);
 }
 
 TEST_F(MapCommand, SaysWhatIsWrong) {

@@ -11,7 +11,6 @@
 namespace traverse::mapping {
 namespace {
 
-using ::testing::DoubleNear;
 using ::testing::ElementsAre;
 
 MapKeyframe keyframe_at(double seconds, float x) {
@@ -29,8 +28,8 @@ TEST(MapPoints, KnowWhenAndByWhichRingTheyWereSeen) {
   const MapKeyframe second = keyframe_at(1.3e9 + 1, 10);  // of a map that does not know
   const std::vector<MapKeyframe> keyframes{first, second};
   const MapPoints points = map_points(keyframes, 0.1);
-  EXPECT_THAT(points.time, ElementsAre(DoubleNear(1.3e9, 1e-6), DoubleNear(1.3e9 - 0.25, 1e-6),
-                                       DoubleNear(1.3e9 + 1, 1e-6), DoubleNear(1.3e9 + 1, 1e-6)));
+  const auto at = geometry::Stamp::from_seconds;
+  EXPECT_THAT(points.stamp, ElementsAre(at(1.3e9), at(1.3e9 - 0.25), at(1.3e9 + 1), at(1.3e9 + 1)));
   EXPECT_THAT(points.ring, ElementsAre(3, 63, MapPoints::kNoRing, MapPoints::kNoRing));
   EXPECT_THAT(points.keyframe, ElementsAre(0, 0, 1, 1));
 }

@@ -1,8 +1,11 @@
 #include "traverse/mapping/map_folder.hpp"
 
+#include <array>
 #include <fstream>
 #include <set>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -11,6 +14,7 @@
 #include "traverse/mapping/keyframe_map.hpp"
 #include "traverse/mapping/map_origin.hpp"
 
+#include "map_las.hpp"
 #include "map_points.hpp"
 
 namespace traverse::mapping {
@@ -20,6 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kWrittenBy = "traverse map";
+constexpr std::array kLasFrames{std::pair<std::string_view, LasFrame>{"grid", LasFrame::kGrid},
+                                std::pair<std::string_view, LasFrame>{"local", LasFrame::kLocal}};
 
 KeyframeMap simple_map_of(const std::vector<MapKeyframe>& keyframes, const MapFolder& folder) {
   KeyframeMapOptions as_they_are;
@@ -93,6 +99,10 @@ void bind(config::Binder& b, MapOptions& o) {
   b.number("voxel_m", o.voxel_m, config::Range::between(0.005, 10),
            "voxel size: one point per voxel is kept");
   b.flag("attributes", o.attributes, "time, ring and keyframe of each point beside its intensity");
+  b.flag("las", o.las, "the points as LAS 1.4 beside map.ply");
+  b.choice("las_frame", o.las_frame, kLasFrames,
+           "coordinates of the LAS file: UTM grid, where the map has a place on earth, or the map "
+           "frame");
   b.flag("remove_moving", o.remove_moving,
          "leave out points that rays of other keyframes pass through");
   b.group("free_space", "detection of moving points",
@@ -118,6 +128,11 @@ MapSummary write_map(const MapFolder& folder, std::vector<MapKeyframe> keyframes
   const MapPoints points = map_points(keyframes, options.voxel_m);
   summary.points = points.size();
   write_ply(folder.points(), points, options.attributes);
+  if (options.las) {
+    const LasSummary las = write_las(folder.las(), points, origin, options.las_frame);
+    summary.las_frame = las.frame;
+    summary.las_has_gps_time = las.has_gps_time;
+  }
   tell("points", 0.5);
   simple_map_of(keyframes, folder).write(folder.simple_map());
   if (origin) write_map_origin(folder.origin(), *origin);

@@ -1,6 +1,7 @@
 #include "map_points.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <Eigen/Dense>
 
@@ -30,9 +31,10 @@ MapPoints map_points(std::span<const MapKeyframe> keyframes, double voxel_m) {
       points.y.push_back(static_cast<float>(p.y()));
       points.z.push_back(static_cast<float>(p.z()));
       points.intensity.push_back(keyframe.intensity.empty() ? 0 : keyframe.intensity[i]);
-      points.time.push_back(geometry::shifted(keyframe.stamp, time_of(keyframe, i)).seconds());
+      points.stamp.push_back(geometry::shifted(keyframe.stamp, time_of(keyframe, i)));
       points.ring.push_back(keyframe.ring.empty() ? MapPoints::kNoRing : keyframe.ring[i]);
       points.keyframe.push_back(static_cast<std::uint32_t>(k));
+      points.run.push_back(keyframe.run);
     }
   }
   return points;
@@ -45,7 +47,10 @@ void write_ply(const std::filesystem::path& file, const MapPoints& points, bool 
   cloud.add("z", points.z);
   cloud.add("intensity", points.intensity);
   if (with_attributes) {
-    cloud.add("time", points.time);
+    std::vector<double> time;
+    time.reserve(points.size());
+    for (const geometry::Stamp stamp : points.stamp) time.push_back(stamp.seconds());
+    cloud.add("time", std::move(time));
     const bool knows_rings = std::any_of(points.ring.begin(), points.ring.end(),
                                          [](auto ring) { return ring != MapPoints::kNoRing; });
     if (knows_rings) cloud.add("ring", points.ring);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "traverse/geometry/stamp.hpp"
 #include "traverse/mapping/map_keyframe.hpp"
 
 namespace traverse::mapping {
@@ -14,9 +15,10 @@ namespace traverse::mapping {
 struct MapPoints {
   std::vector<float> x, y, z;           ///< metres, map frame
   std::vector<float> intensity;         ///< 0 .. 1
-  std::vector<double> time;             ///< when it was seen, seconds
+  std::vector<geometry::Stamp> stamp;   ///< when it was seen
   std::vector<std::uint16_t> ring;      ///< as the recording counts them; kNoRing
   std::vector<std::uint32_t> keyframe;  ///< number of that keyframe, from 0
+  std::vector<std::uint16_t> run;       ///< of several runs, from 0
 
   static constexpr std::uint16_t kNoRing = 0xffff;  ///< the keyframe does not know
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -20,6 +21,7 @@ struct MapFolder {
   std::filesystem::path path;
 
   std::filesystem::path points() const { return path / "map.ply"; }
+  std::filesystem::path las() const { return path / "map.las"; }  ///< where it was asked for
   std::filesystem::path simple_map() const { return path / "map.simplemap"; }
   std::filesystem::path grid_image() const { return path / "grid.png"; }
   std::filesystem::path grid() const { return path / "grid.yaml"; }
@@ -34,9 +36,17 @@ struct MapFolder {
 /// \throws files::OutputError naming what is in the folder that no map of this program put there.
 std::vector<std::string> files_of_earlier_map(const MapFolder& folder);
 
+/// What the coordinates of a LAS file are.
+enum class LasFrame : std::uint8_t {
+  kGrid,   ///< the UTM grid of the origin's zone; the map frame of a map without an origin
+  kLocal,  ///< the map frame: east, north, up at the origin, where there is one
+};
+
 struct MapOptions {
-  double voxel_m = 0.1;       ///< of the points of map.ply
-  bool attributes = false;    ///< time, ring and keyframe beside them
+  double voxel_m = 0.1;     ///< of the points of map.ply
+  bool attributes = false;  ///< time, ring and keyframe beside them
+  bool las = false;         ///< the points as LAS too
+  LasFrame las_frame = LasFrame::kGrid;
   bool remove_moving = true;  ///< points in free space are left out everywhere
   bool with_grid = true;
   FreeSpaceOptions free_space;
@@ -49,6 +59,8 @@ struct MapSummary {
   std::size_t keyframes = 0;
   std::size_t removed_points = 0;  ///< of keyframes, as in free space
   std::size_t points = 0;          ///< of map.ply
+  std::string las_frame;           ///< its coordinates in words; empty without LAS
+  bool las_has_gps_time = false;   ///< else its times are of the recording's own clock
   std::size_t grid_columns = 0;    ///< 0 without a grid
   std::size_t grid_rows = 0;
 };

@@ -17,6 +17,7 @@ namespace traverse::mapping {
 struct MapKeyframe {
   geometry::Stamp stamp;
   std::string sensor;
+  std::uint16_t run = 0;  ///< which of several runs it is of, from 0
   geometry::Pose3 T_map_body;
   Eigen::Vector3d p_body_sensor = Eigen::Vector3d::Zero();  ///< where its rays start, body frame
   std::vector<float> x, y, z;                               ///< metres, body frame
