@@ -39,6 +39,7 @@ class PassingSurfaces {
     for (std::size_t k = 0; k < surfaces_.size(); ++k) {
       const Vector6& row = surfaces_[k].row;
       evidence.pull[surfaces_[k].part] += (row.dot(error_) - offsets_[k]) * row;
+      evidence.information_of[surfaces_[k].part] += row * row.transpose();
     }
     ++scan_;
     return evidence;

@@ -13,8 +13,16 @@ using lidar::Vector6;
 
 namespace {
 
-/// Of pulls whose sum is spent on the pose.
-constexpr double kFreed = static_cast<double>(ScanEvidence::kParts) / (ScanEvidence::kParts - 1);
+/// Of the squares of what the pose moves by without each part in turn.
+constexpr double kJackknife =
+    static_cast<double>(ScanEvidence::kParts - 1) / static_cast<double>(ScanEvidence::kParts);
+
+/// By how much the pose would move without a part, but for its sign: at the pose found a part has
+/// spent of its pull what it has brought the pose by.
+Vector6 shift_without(std::size_t part, const ScanEvidence& evidence, const Matrix6& all) {
+  constexpr double kMost = 0.9;  // of a part that alone tells of a direction
+  return (all - kMost * evidence.information_of[part]).llt().solve(evidence.pull[part]);
+}
 
 Matrix6 to_lidar_axes(const geometry::Pose3& T_map_lidar) {
   Matrix6 axes = Matrix6::Zero();
@@ -43,16 +51,17 @@ void PoseUncertainty::add(const ScanEvidence& evidence, const geometry::Pose3& T
                           bool enters_map, const Matrix6& prediction, const Matrix6& growth) {
   constexpr double kRemembered = 50;  // scans
   const Eigen::LLT<Matrix6> lasting(evidence.aged + prediction);
-  const Eigen::LLT<Matrix6> now(evidence.information + prediction);
-  if (lasting.info() != Eigen::Success || now.info() != Eigen::Success) return;
+  const Matrix6 all = evidence.information + prediction;
+  if (lasting.info() != Eigen::Success || all.llt().info() != Eigen::Success) {
+    return;
+  }
   const Matrix6 moved = about_the_origin(T_map_lidar);
   const Matrix6 axes = to_lidar_axes(T_map_lidar);
   Matrix6 own = Matrix6::Zero();
   for (std::size_t part = 0; part < drift_.size(); ++part) {
-    const Vector6& pull = evidence.pull[part];
-    if (enters_map) drift_[part] -= moved * lasting.solve(pull);
-    const Vector6 shift = axes * now.solve(pull);
-    own += kFreed * shift * shift.transpose();
+    const Vector6 shift = shift_without(part, evidence, all);
+    if (enters_map) drift_[part] -= moved * lasting.solve(all * shift);
+    own += kJackknife * (axes * shift) * (axes * shift).transpose();
   }
   own_weight_ = std::min(own_weight_ + 1, kRemembered);
   own_ += (own - own_) / own_weight_;
@@ -63,7 +72,7 @@ void PoseUncertainty::add(const ScanEvidence& evidence, const geometry::Pose3& T
 
 Matrix6 PoseUncertainty::covariance_of_map(const geometry::Pose3& T_map_lidar) const {
   Matrix6 map = predicted_;
-  for (const Vector6& drift : drift_) map += kFreed * drift * drift.transpose();
+  for (const Vector6& drift : drift_) map += kJackknife * drift * drift.transpose();
   const Matrix6 to_lidar = to_lidar_axes(T_map_lidar) * about_the_lidar(T_map_lidar);
   return to_lidar * map * to_lidar.transpose();
 }

@@ -87,7 +87,11 @@ class EvidenceSum {
       sum_.aged.col(col) += age * column;
     }
     const lidar::Vector6 pull = r * wJ;
-    for (const std::size_t part : among) sum_.pull[part] += pull;
+    const lidar::Matrix6 information = wJ * J.transpose();
+    for (const std::size_t part : among) {
+      sum_.pull[part] += pull;
+      sum_.information_of[part] += information;
+    }
   }
   const ScanEvidence& sum() const { return sum_; }
 
@@ -104,12 +108,14 @@ void ScanEvidence::scale(double factor) {
   information *= factor;
   aged *= factor;
   for (lidar::Vector6& one : pull) one *= factor;
+  for (lidar::Matrix6& one : information_of) one *= factor;
 }
 
 void ScanEvidence::keep(const lidar::Matrix6& root, const lidar::Matrix6& shares) {
   information = (root.transpose() * information * root).eval();
   aged = (root.transpose() * aged * root).eval();
   for (lidar::Vector6& one : pull) one = (shares.transpose() * one).eval();
+  for (lidar::Matrix6& one : information_of) one = (root.transpose() * one * root).eval();
 }
 
 ScanEvidence scan_evidence(const ScanMatches& matches, const MotionModel& motion,

@@ -19,12 +19,16 @@ struct ScanEvidence {
   /// of the sweep; those at the same elevation, which are of the same beams.
   static constexpr std::size_t kWays = 3;
   static constexpr std::size_t kParts = 32;  ///< that each way tells apart
+  static constexpr std::size_t kAllParts = kWays * kParts;
 
   lidar::Matrix6 information = lidar::Matrix6::Zero();  ///< sum of w J' J
   /// The same with each match times the age of its surface, in scans: 1 for the last one's.
   lidar::Matrix6 aged = lidar::Matrix6::Zero();
-  /// Sum of w J' r over the matches in each part, way by way: what that part alone pulls at.
-  std::array<lidar::Vector6, kWays* kParts> pull = zeros();
+  /// Of the matches in each part, way by way: the sum of w J' r, what that part alone pulls at, and
+  /// its share of the information.
+  std::array<lidar::Vector6, kAllParts> pull = all(lidar::Vector6(lidar::Vector6::Zero()));
+  std::array<lidar::Matrix6, kAllParts> information_of =
+      all(lidar::Matrix6(lidar::Matrix6::Zero()));
 
   /// As if all weights were `factor` times as large.
   void scale(double factor);
@@ -33,10 +37,11 @@ struct ScanEvidence {
   void keep(const lidar::Matrix6& root, const lidar::Matrix6& shares);
 
  private:
-  static std::array<lidar::Vector6, kWays * kParts> zeros() {
-    std::array<lidar::Vector6, kWays * kParts> all;
-    all.fill(lidar::Vector6::Zero());
-    return all;
+  template <typename One>
+  static std::array<One, kAllParts> all(const One& one) {
+    std::array<One, kAllParts> parts;
+    parts.fill(one);
+    return parts;
   }
 };
 
