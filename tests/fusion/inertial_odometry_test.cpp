@@ -125,6 +125,8 @@ TEST(InertialOdometry, WhileItStandsOneScanIsAllThatTheMapHas) {
                              -0.1, 2.1, kGyroBias, kAccelerometerBias);
   InertialOdometryOptions options;
   options.lidar.start.scans = 2;
+  options.lidar.start.slowest_mps = 0;
+  options.lidar.start.fastest_mps = 1;
   options.start.stand_still.seconds = 0.5;
   InertialOdometry odometry(options, drive.scanner.profile, false);
   odometry.mount(sensors.rig, sensors.rig.sensors[0]);

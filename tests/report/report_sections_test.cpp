@@ -9,6 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "traverse/files/atomic_file.hpp"
+#include "traverse/files/input_error.hpp"
 #include "traverse/files/text_file.hpp"
 #include "traverse/pipeline/frame_table.hpp"
 #include "traverse/pipeline/run_folder.hpp"
@@ -116,6 +118,17 @@ void give_covariances(const pipeline::RunFolder& files, double variance) {
     after.add_row(cells);
   }
   after.write_csv(files.frames());
+}
+
+TEST(ReportSections, CovariancesThatLackAnEntryAreRefused) {
+  const TemporaryFolder folder;
+  make_run(folder.path());
+  const pipeline::RunFolder files{folder.path()};
+  give_covariances(files, 1);
+  std::string text = files::read_text(files.frames());
+  text.replace(text.find("covariance_tx_tz"), 16, "covariance_tx_tt");
+  files::write_text(files.frames(), text);
+  EXPECT_THROW(write_run_report(folder.path(), kTemplates, RunReportOptions{}), files::InputError);
 }
 
 TEST(ReportSections, TheErrorOfThePathIsDrawnWithinTheRunsOwnBounds) {
