@@ -119,7 +119,7 @@ TEST(InertialOdometry, WhileItStandsOneScanIsAllThatTheMapHas) {
   simulation::Drive parked;
   parked.speed_mps = 0;
   parked.sway = 0;
-  const SimulatedDrive drive(simulation::street(60, 1), 13, parked);
+  const SimulatedDrive drive(simulation::street(15, 1), 13, parked);
   const auto imu =
       testing::simulated_imu([&](double t) { return drive.drive.pose(t); }, sensors.p_lidar_imu,
                              -0.1, 2.1, kGyroBias, kAccelerometerBias);

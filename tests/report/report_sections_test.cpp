@@ -71,27 +71,6 @@ TEST(ReportSections, ContentsAndPageFollowTheTable) {
   }
 }
 
-TEST(ReportSections, EveryPictureAndChartHasItsPlaceOnThePage) {
-  const TemporaryFolder folder;
-  make_run(folder.path());
-  RunReportOptions options;
-  options.picture_width = 480;
-  write_run_report(folder.path(), kTemplates, options);
-  const pipeline::RunFolder files{folder.path()};
-  const std::string page = files::read_text(files.report());
-  const Json json = Json::parse(files::read_text(files.report_json()));
-  const auto figures = all_between(page, "<figure id=\"", "\"");
-  ASSERT_GT(json.at("pictures").size(), 8U);
-  for (const Json& picture : json.at("pictures")) {
-    EXPECT_THAT(figures, Contains(picture.at("name").get<std::string>()));
-  }
-  const auto places = all_between(page, "data-charts=\"", "\"");
-  ASSERT_GT(json.at("charts").size(), 8U);
-  for (const Json& chart : json.at("charts")) {
-    EXPECT_THAT(places, Contains(chart.at("section").get<std::string>()));
-  }
-}
-
 /// The folder's frames.csv with a covariance in each row: `variance` on its diagonal.
 void give_covariances(const pipeline::RunFolder& files, double variance) {
   const pipeline::FrameTable before = pipeline::FrameTable::read_csv(files.frames());
@@ -120,26 +99,28 @@ void give_covariances(const pipeline::RunFolder& files, double variance) {
   after.write_csv(files.frames());
 }
 
-TEST(ReportSections, CovariancesThatLackAnEntryAreRefused) {
+TEST(ReportSections, EveryPictureAndChartHasItsPlaceOnThePage) {
   const TemporaryFolder folder;
   make_run(folder.path());
-  const pipeline::RunFolder files{folder.path()};
-  give_covariances(files, 1);
-  std::string text = files::read_text(files.frames());
-  text.replace(text.find("covariance_tx_tz"), 16, "covariance_tx_tt");
-  files::write_text(files.frames(), text);
-  EXPECT_THROW(write_run_report(folder.path(), kTemplates, RunReportOptions{}), files::InputError);
-}
-
-TEST(ReportSections, TheErrorOfThePathIsDrawnWithinTheRunsOwnBounds) {
-  const TemporaryFolder folder;
-  make_run(folder.path());
-  const pipeline::RunFolder files{folder.path()};
-  give_covariances(files, 100);
+  give_covariances(pipeline::RunFolder{folder.path()}, 100);
   RunReportOptions options;
   options.picture_width = 480;
   write_run_report(folder.path(), kTemplates, options);
+  const pipeline::RunFolder files{folder.path()};
+  const std::string page = files::read_text(files.report());
   const Json json = Json::parse(files::read_text(files.report_json()));
+  const auto figures = all_between(page, "<figure id=\"", "\"");
+  ASSERT_GT(json.at("pictures").size(), 8U);
+  for (const Json& picture : json.at("pictures")) {
+    EXPECT_THAT(figures, Contains(picture.at("name").get<std::string>()));
+  }
+  const auto places = all_between(page, "data-charts=\"", "\"");
+  ASSERT_GT(json.at("charts").size(), 8U);
+  for (const Json& chart : json.at("charts")) {
+    EXPECT_THAT(places, Contains(chart.at("section").get<std::string>()));
+  }
+
+  // The error of the path is drawn within the run's own bounds.
   const auto& charts = json.at("charts");
   const auto chart = std::find_if(charts.begin(), charts.end(),
                                   [](const Json& one) { return one.at("id") == "pose-bounds"; });
@@ -149,6 +130,17 @@ TEST(ReportSections, TheErrorOfThePathIsDrawnWithinTheRunsOwnBounds) {
   for (const Json& series : chart->at("series")) {
     EXPECT_NEAR(series.at("band").at(std::size_t{30}).get<double>(), 19.6, 1e-6);
   }
+}
+
+TEST(ReportSections, CovariancesThatLackAnEntryAreRefused) {
+  const TemporaryFolder folder;
+  make_run(folder.path());
+  const pipeline::RunFolder files{folder.path()};
+  give_covariances(files, 1);
+  std::string text = files::read_text(files.frames());
+  text.replace(text.find("covariance_tx_tz"), 16, "covariance_tx_tt");
+  files::write_text(files.frames(), text);
+  EXPECT_THROW(write_run_report(folder.path(), kTemplates, RunReportOptions{}), files::InputError);
 }
 
 }  // namespace
