@@ -57,12 +57,15 @@ void PoseUncertainty::add(const ScanEvidence& evidence, const geometry::Pose3& T
   }
   const Matrix6 moved = about_the_origin(T_map_lidar);
   const Matrix6 axes = to_lidar_axes(T_map_lidar);
+  const Matrix6 lasts = moved * lasting.solve(all);
   Matrix6 own = Matrix6::Zero();
   for (std::size_t part = 0; part < drift_.size(); ++part) {
+    if (evidence.pull[part].isZero(0)) continue;
     const Vector6 shift = shift_without(part, evidence, all);
-    if (enters_map) drift_[part] -= moved * lasting.solve(all * shift);
-    own += kJackknife * (axes * shift) * (axes * shift).transpose();
+    if (enters_map) drift_[part] -= lasts * shift;
+    own.selfadjointView<Eigen::Lower>().rankUpdate(shift, kJackknife);
   }
+  own = (axes * Matrix6(own.selfadjointView<Eigen::Lower>()) * axes.transpose()).eval();
   own_weight_ = std::min(own_weight_ + 1, kRemembered);
   own_ += (own - own_) / own_weight_;
   // What the prediction's own growth leaves in the map.

@@ -76,30 +76,57 @@ class EvidenceSum {
 
   void add(const PlaneRows& rows, std::size_t i, const Vector3d& m, const Parts& among, double r,
            double weight) {
-    lidar::Vector6 J;
     const Vector3d n = normal(rows, i);
-    J << m.cross(n), n;
-    const lidar::Vector6 wJ = weight * J;
+    const Vector3d turning = m.cross(n);
+    const std::array<double, 6> J{turning.x(), turning.y(), turning.z(), n.x(), n.y(), n.z()};
     const double age = std::max(1.0, static_cast<double>(rows.age[i]));
-    for (Eigen::Index col = 0; col < 6; ++col) {
-      const lidar::Vector6 column = wJ * J[col];
-      sum_.information.col(col) += column;
-      sum_.aged.col(col) += age * column;
+    Triangle information;
+    std::size_t k = 0;
+    for (std::size_t row_of_J = 0; row_of_J < 6; ++row_of_J) {
+      const double wJ = weight * J[row_of_J];
+      for (std::size_t col = row_of_J; col < 6; ++col) information[k++] = wJ * J[col];
     }
-    const lidar::Vector6 pull = r * wJ;
-    const lidar::Matrix6 information = wJ * J.transpose();
+    for (k = 0; k < information.size(); ++k) aged_[k] += age * information[k];
+    const double pull = weight * r;
     for (const std::size_t part : among) {
-      sum_.pull[part] += pull;
-      sum_.information_of[part] += information;
+      Triangle& of_part = information_of_[part];
+      for (k = 0; k < information.size(); ++k) of_part[k] += information[k];
+      for (std::size_t axis = 0; axis < 6; ++axis) {
+        sum_.pull[part][static_cast<Eigen::Index>(axis)] += pull * J[axis];
+      }
     }
   }
-  const ScanEvidence& sum() const { return sum_; }
+
+  ScanEvidence sum() const {
+    ScanEvidence sum = sum_;
+    sum.aged = unpacked(aged_);
+    for (std::size_t part = 0; part < information_of_.size(); ++part) {
+      sum.information_of[part] = unpacked(information_of_[part]);
+      if (part < ScanEvidence::kParts) sum.information += sum.information_of[part];
+    }
+    return sum;
+  }
 
  private:
+  /// The upper one of a symmetric matrix, by rows.
+  using Triangle = std::array<double, 21>;
+  static lidar::Matrix6 unpacked(const Triangle& triangle) {
+    lidar::Matrix6 matrix;
+    std::size_t k = 0;
+    for (Eigen::Index row = 0; row < 6; ++row) {
+      for (Eigen::Index col = row; col < 6; ++col) {
+        matrix(row, col) = matrix(col, row) = triangle[k++];
+      }
+    }
+    return matrix;
+  }
+
   geometry::Pose3 T_map_lidar_;
   Vector3d origin_map_;
   SweepMotion swept_;
-  ScanEvidence sum_;
+  ScanEvidence sum_;  // the pulls of it
+  Triangle aged_{};
+  std::array<Triangle, ScanEvidence::kAllParts> information_of_{};
 };
 
 }  // namespace
