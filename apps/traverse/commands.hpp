@@ -15,6 +15,7 @@ void add_compare(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_doctor(CLI::App& app);
 void add_evaluate(CLI::App& app);
+void add_export(CLI::App& app);
 void add_import(CLI::App& app);
 void add_info(CLI::App& app);
 void add_localize(CLI::App& app);

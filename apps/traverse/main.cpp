@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
   traverse::app::add_doctor(app);
   traverse::app::add_convert(app);
   traverse::app::add_map(app);
+  traverse::app::add_export(app);
   traverse::app::add_simulate(app);
   traverse::app::add_pipelines(app);
   traverse::app::add_check_jacobians(app);

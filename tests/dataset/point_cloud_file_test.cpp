@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "traverse/dataset/ply_blocks.hpp"
 #include "traverse/files/atomic_file.hpp"
 #include "traverse/files/input_error.hpp"
 #include "traverse/files/text_file.hpp"
@@ -315,6 +316,57 @@ TEST(PointCloud, KeepsItsFieldsEquallyLong) {
   EXPECT_EQ(cloud.size(), 2U);
   EXPECT_THAT(to_floats(*cloud.find("x")), ElementsAre(1, 2));
   EXPECT_EQ(cloud.find("y"), nullptr);
+}
+
+TEST(PlyBlocks, TogetherAreTheFile) {
+  constexpr std::size_t kPoints = 150'000;  // two whole blocks and a part
+  const TemporaryFolder folder;
+  PointCloud cloud;
+  std::vector<float> x(kPoints);
+  std::vector<std::uint16_t> ring(kPoints);
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    x[i] = 0.5F * static_cast<float>(i);
+    ring[i] = static_cast<std::uint16_t>(i % 64);
+  }
+  cloud.add("x", x);
+  cloud.add("ring", ring);
+  write_ply(folder / "cloud.ply", cloud);
+  PlyBlocks blocks(folder / "cloud.ply");
+  EXPECT_EQ(blocks.size(), kPoints);
+  std::vector<float> read_x;
+  std::vector<std::uint16_t> read_ring;
+  std::size_t count = 0;
+  while (const auto block = blocks.next()) {
+    const auto& block_x = values<float>(*block, "x");
+    const auto& block_ring = values<std::uint16_t>(*block, "ring");
+    read_x.insert(read_x.end(), block_x.begin(), block_x.end());
+    read_ring.insert(read_ring.end(), block_ring.begin(), block_ring.end());
+    ++count;
+  }
+  EXPECT_EQ(count, 3U);
+  EXPECT_EQ(read_x, x);
+  EXPECT_EQ(read_ring, ring);
+}
+
+TEST(PlyBlocks, SayWhatTheyCannotRead) {
+  const TemporaryFolder folder;
+  const auto message = [&](const std::string& text) {
+    files::write_text(folder / "cloud.ply", text);
+    try {
+      const PlyBlocks blocks(folder / "cloud.ply");
+      return std::string("it was read");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  const std::string binary = "ply\nformat binary_little_endian 1.0\n";
+  EXPECT_THAT(message("ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n"),
+              HasSubstr("expected a binary PLY file"));
+  EXPECT_THAT(message(binary + "element vertex 3\nproperty float x\nend_header\n12345678"),
+              HasSubstr("3 points of 4 bytes"));
+  EXPECT_THAT(message(binary + "element face 1\nproperty list uchar int v\nend_header\n"),
+              HasSubstr("before any other element"));
+  EXPECT_THROW(PlyBlocks(folder / "none.ply"), InputError);
 }
 
 }  // namespace

@@ -125,7 +125,11 @@ TEST_F(MapCommand, OtherReadersFindThePointsOfALasFileAtTheirPlaceOnEarth) {
     GTEST_SKIP() << "node with copc and @loaders.gl/las is not there; `scripts/dependencies test` "
                     "installs them where npm is";
   }
+  const ProgramResult exported = run_program("export " + path("las") + " " + path("again.las"));
+  ASSERT_EQ(exported.status, 0) << exported.messages;
+  EXPECT_THAT(exported.output, HasSubstr("UTM zone 32N, heights above the ellipsoid, no times"));
   const auto cloud = dataset::read_point_cloud(path("las/map.ply"));
+  EXPECT_EQ(words_of_other_readers(path("again.las"))[1], words[1]);
   EXPECT_EQ(words[0], "copc");
   EXPECT_EQ(words[1], std::to_string(cloud.size()));
   // The last point, by another way than the program's: geodetic coordinates, then the projection.

@@ -76,7 +76,7 @@ struct LasWriter::Content {
     h.put(std::uint32_t{1});  // records before the points: the coordinate system
     h.put(std::uint8_t{6});
     h.put(static_cast<std::uint16_t>(kPointBytes));
-    h.put_text("", 4 + 5 * 4);  // numbers of 32 bits, of formats before 6
+    h.put_text("", 24);  // numbers of 32 bits, of formats before 6
     for (int axis = 0; axis < 3; ++axis) h.put(kScale_m);
     for (int axis = 0; axis < 3; ++axis) h.put(description.offset_m[axis]);
     for (int axis = 0; axis < 3; ++axis) {
@@ -88,7 +88,7 @@ struct LasWriter::Content {
     h.put(std::uint32_t{0});
     h.put(count);
     h.put(count);  // all are first returns
-    h.put_text("", 14 * 8);
+    h.put_text("", 112);
     return h;
   }
 

@@ -12,8 +12,11 @@ namespace traverse::dataset {
 using files::InputError;
 using files::Place;
 
-FileCursor::FileCursor(std::filesystem::path path)
-    : path_(std::move(path)), bytes_(files::read_bytes(path_)) {
+FileCursor::FileCursor(const std::filesystem::path& path)
+    : FileCursor(path, files::read_bytes(path)) {}
+
+FileCursor::FileCursor(std::filesystem::path path, std::vector<std::byte> beginning)
+    : path_(std::move(path)), bytes_(std::move(beginning)) {
   const std::string_view text(reinterpret_cast<const char*>(bytes_.data()), bytes_.size());
   position_ = files::byte_order_mark(text, path_);
 }
