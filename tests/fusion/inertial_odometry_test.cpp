@@ -67,6 +67,7 @@ void expect_same_poses(const std::vector<lidar::Frame>& a, const std::vector<lid
     EXPECT_TRUE(same(a[i].T_map_lidar.translation, b[i].T_map_lidar.translation)) << i;
     EXPECT_TRUE(same(a[i].velocity, b[i].velocity)) << i;
     EXPECT_EQ(a[i].map_points, b[i].map_points) << i;
+    EXPECT_TRUE(same(a[i].covariance.value(), b[i].covariance.value())) << i;
   }
 }
 
@@ -109,6 +110,33 @@ TEST(InertialOdometry, IsNoWorseThanTheLidarAlone) {
     EXPECT_TRUE(odometry.uses_imu()) << seed;
   }
   EXPECT_LT(fused_m, 1.03 * by_lidar_m);
+}
+
+// Every scan of a lidar that stands shows the same rings: planes through the points of one of them
+// would say that nothing moves.
+TEST(InertialOdometry, WhileItStandsOneScanIsAllThatTheMapHas) {
+  const testing::LidarAndImu sensors;
+  simulation::Drive parked;
+  parked.speed_mps = 0;
+  parked.sway = 0;
+  const SimulatedDrive drive(simulation::street(15, 1), 13, parked);
+  const auto imu =
+      testing::simulated_imu([&](double t) { return drive.drive.pose(t); }, sensors.p_lidar_imu,
+                             -0.1, 2.1, kGyroBias, kAccelerometerBias);
+  InertialOdometryOptions options;
+  options.lidar.start.scans = 2;
+  options.lidar.start.slowest_mps = 0;
+  options.lidar.start.fastest_mps = 1;
+  options.start.stand_still.seconds = 0.5;
+  InertialOdometry odometry(options, drive.scanner.profile, false);
+  odometry.mount(sensors.rig, sensors.rig.sensors[0]);
+  const auto frames = testing::frames_of(odometry, drive, imu);
+  ASSERT_EQ(frames.size(), 13U);
+  ASSERT_GE(count_fused(frames), 5U) << note_of(odometry);
+  const std::size_t alone = frames.size() - count_fused(frames) - 1;
+  EXPECT_LT(frames[alone + 2].map_points, frames[alone].map_points);
+  EXPECT_EQ(frames[alone + 2].map_points, frames.back().map_points);
+  EXPECT_LT(worst_position_error(frames, drive), 0.02);
 }
 
 TEST_F(InertialStreet, WithoutAnImuItIsTheLidarAloneBitForBit) {

@@ -1,10 +1,13 @@
 #include "lidar_estimator.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 
+#include "traverse/geometry/se3.hpp"
 #include "traverse/loam/scan_to_map_odometry.hpp"
+#include "traverse/voxel_map/voxel_map_odometry.hpp"
 
 #include "geometry/random_motion.hpp"
 #include "lidar/simulated_drive.hpp"
@@ -47,6 +50,41 @@ std::vector<PoseFrame> run(LidarEstimator& estimator, const testing::SimulatedDr
     }
   }
   return frames;
+}
+
+TEST(LidarEstimator, CovariancesAreOfTheBodysPoseWithTheLeverOfTheLidar) {
+  const testing::SimulatedDrive drive(simulation::street(60, 1), 5, 10);
+  testing::RandomMotion random(1);
+  const geometry::Pose3 T_body_lidar = random.pose(1, 2);
+  voxel_map::VoxelMapOdometryOptions options;
+  options.start.scans = 2;
+  options.start.slowest_mps = options.start.fastest_mps = 10;
+  const auto make = [&](const sensors::LidarProfile& profile, bool motion_compensated) {
+    return std::make_unique<voxel_map::VoxelMapOdometry>(options, profile, motion_compensated);
+  };
+  LidarEstimator estimator(make, recording_with(drive.scanner.profile, T_body_lidar));
+  const auto frames = run(estimator, drive);
+  ASSERT_EQ(frames.size(), 5U);
+  voxel_map::VoxelMapOdometry odometry(options, drive.scanner.profile, false);
+  std::vector<lidar::Frame> of_lidar;
+  for (const auto& scan : drive.scans) {
+    for (lidar::Frame& frame : odometry.process(scan)) of_lidar.push_back(std::move(frame));
+  }
+  const geometry::Matrix6 to_body = geometry::adjoint(T_body_lidar);
+  const geometry::Matrix6 expected =
+      to_body * of_lidar.back().covariance.value() * to_body.transpose();
+  const auto& columns = estimator.columns();
+  const auto first = std::find(columns.begin(), columns.end(), "covariance_rx_rx");
+  ASSERT_NE(first, columns.end());
+  auto at = static_cast<std::size_t>(first - columns.begin());
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    for (Eigen::Index j = i; j < 6; ++j, ++at) {
+      EXPECT_NEAR(frames.back().record.at(at), expected(i, j), 1e-9 * expected.norm()) << i << j;
+      EXPECT_EQ(frames.front().record.at(at), 0) << "the first pose is what it is told from";
+    }
+  }
+  EXPECT_EQ(columns.at(at - 1), "covariance_tz_tz");
+  EXPECT_GT(expected.ldlt().vectorD().minCoeff(), 0);
 }
 
 TEST(LidarEstimator, PosesAreOfTheBodyNotOfTheLidar) {

@@ -33,11 +33,10 @@ voxel_map::MotionModel no_motion() {
   return motion;
 }
 
-/// H and g without the directions that the matches do not determine: their information on those is
-/// noise of the map's normals.
-void leave_out_degenerate(const lidar::Observability& seen, const Eigen::Matrix3d& R_map_lidar,
-                          Matrix6& H, Vector6& g) {
-  if (seen.degenerate == 0) return;
+/// Of a perturbation (rotation, R' translation in the map) `shares` of its parts along the
+/// directions that the matches tell apart.
+Matrix6 shared(const lidar::Observability& seen, const Vector6& shares,
+               const Eigen::Matrix3d& R_map_lidar) {
   // u = S d are the scaled coordinates of the twist d = (rotation, R' translation in the map).
   Matrix6 to_scaled = Matrix6::Identity();
   to_scaled.topLeftCorner<3, 3>() *= seen.rotation_scale_m;
@@ -45,11 +44,18 @@ void leave_out_degenerate(const lidar::Observability& seen, const Eigen::Matrix3
   Matrix6 from_scaled = Matrix6::Identity();
   from_scaled.topLeftCorner<3, 3>() /= seen.rotation_scale_m;
   from_scaled.bottomRightCorner<3, 3>() = R_map_lidar;
-  const auto unseen = seen.directions.leftCols(seen.degenerate);
-  const Matrix6 kept = Matrix6::Identity() - unseen * unseen.transpose();
-  const Matrix6 keep = from_scaled * kept * to_scaled;
-  H = (keep.transpose() * H * keep).eval();
-  g = (keep.transpose() * g).eval();
+  return from_scaled * seen.directions * shares.asDiagonal() * seen.directions.transpose() *
+         to_scaled;
+}
+
+/// H and g with so much of their information on each direction that the matches tell apart. Where
+/// the least point lies along it stays: the directions are the axes of H.
+void keep_shares(const lidar::Observability& seen, const Vector6& shares,
+                 const Eigen::Matrix3d& R_map_lidar, Matrix6& H, Vector6& g) {
+  if (shares.minCoeff() >= 1) return;
+  const Matrix6 root = shared(seen, shares.cwiseSqrt(), R_map_lidar);
+  H = (root.transpose() * H * root).eval();
+  g = (shared(seen, shares, R_map_lidar).transpose() * g).eval();
 }
 
 /// The least point of the quadratic g' d + d' H d / 2 in the directions that H tells of.
@@ -62,6 +68,12 @@ Vector6 least_point(const Matrix6& H, const Vector6& g) {
     coordinates[k] = values[k] > kNothing * values[5] ? -coordinates[k] / values[k] : 0;
   }
   return eigen.eigenvectors() * coordinates;
+}
+
+Matrix6 positive_part(const Matrix6& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(symmetric);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
+         eigen.eigenvectors().transpose();
 }
 
 /// Room for a sample's points, with everything but their coordinates.
@@ -78,9 +90,9 @@ void copy_points(const SweepPoints& from, SweepPoints& to) {
 }  // namespace
 
 FusedScans::FusedScans(const InertialOdometryOptions& options, const FusedMounts& mounts,
-                       const FirstState& first, voxel_map::VoxelMap map, bool deskews,
-                       double sweep_s, std::size_t frames,
-                       std::shared_ptr<parallel::Workers> workers)
+                       const FirstState& first, voxel_map::VoxelMap map,
+                       const voxel_map::PoseUncertainty& known, bool deskews, double sweep_s,
+                       std::size_t frames, std::shared_ptr<parallel::Workers> workers)
     : options_(options),
       mounts_(mounts),
       deskews_(deskews),
@@ -88,7 +100,8 @@ FusedScans::FusedScans(const InertialOdometryOptions& options, const FusedMounts
       workers_(std::move(workers)),
       chain_({options.imu, options.window, options.wheels}, mounts.wheels, first.gravity_map),
       map_(std::move(map)),
-      frames_(frames) {
+      frames_(frames),
+      uncertainty_(known) {
   chain_.start(first.state, first.sigma);
 }
 
@@ -139,7 +152,10 @@ lidar::Frame FusedScans::add(const SweepSample& sample, const ImuReadings& imu,
   if (imu.longest_gap_s(last, middle) > options_.start.longest_gap_s) {
     ++events_["gaps in the IMU's readings, where constant velocity stood in"];
   }
+  const Pose3 lidar_before = lidar_pose(before);
+  const Matrix6 covariance_before = lidar_covariance();
   chain_.append(readings_between(last, middle, imu), wheels);
+  const Matrix6 predicted = lidar_covariance();
   watch.lap(frame.ms.solve);
 
   const auto [first_s, last_s] = voxel_map::time_span(sample);
@@ -165,6 +181,8 @@ lidar::Frame FusedScans::add(const SweepSample& sample, const ImuReadings& imu,
              geometry::seconds_between(last, middle);
   const SweepPath path = path_at(x);
   T_map_last_ = lidar_pose(x);
+  note_uncertainty(lidar_before, covariance_before, predicted, frame);
+  frame.covariance = uncertainty_.covariance(T_map_last_);
   frame.T_map_lidar = T_map_last_ * path.at(-sample.middle_s);
   frame.T_map_lidar = frame.T_map_lidar.orthonormalised();
   frame.velocity = path.mean_velocity();
@@ -173,7 +191,7 @@ lidar::Frame FusedScans::add(const SweepSample& sample, const ImuReadings& imu,
   swept_.push_back({sample.stamp, -sample.middle_s, path});
   constexpr std::size_t kRemembered = 32;  // sweeps: loops are closed with the latest
   if (swept_.size() > kRemembered) swept_.pop_front();
-  if (frame.health.registered ||
+  if ((frame.health.registered && is_new_view()) ||
       map_.size() < static_cast<std::size_t>(options_.lidar.alignment.min_matches)) {
     insert(sample, frame);
   }
@@ -200,6 +218,49 @@ void FusedScans::note_innovation(const Condensed& found, const Vector6& least) {
   const double chi2 = apart.dot(found.H * (apart - moved));
   innovation_ = std::min(chi2 / 6, kMost);
   disagreement_ += (innovation_ - disagreement_) / kMemory;
+}
+
+/// The chain's covariance of the lidar's pose, as a twist about it in the axes of the map.
+Matrix6 FusedScans::lidar_covariance() const {
+  const Matrix6 moved = lidar_twist_by_body(chain_.newest());
+  return moved * chain_.covariance().topLeftCorner<6, 6>() * moved.transpose();
+}
+
+Matrix6 FusedScans::lidar_twist_by_body(const NavState& x) const {
+  Matrix6 turned = Matrix6::Identity();
+  turned.topLeftCorner<3, 3>() = x.rotation();
+  return turned * lidar_by_body(x);
+}
+
+/// \param covariance_before  of the lidar's pose, after the last scan  \param predicted  of this
+/// one's, by the chain
+void FusedScans::note_uncertainty(const Pose3& T_map_before, const Matrix6& covariance_before,
+                                  const Matrix6& predicted, const lidar::Frame& frame) {
+  const Pose3 step{Eigen::Matrix3d::Identity(), T_map_before.translation - T_map_last_.translation};
+  const Matrix6 moved = voxel_map::about_the_origin(step);
+  const Matrix6 origin = voxel_map::about_the_origin(T_map_last_);
+  const Matrix6 growth = origin *
+                         positive_part(predicted - moved * covariance_before * moved.transpose()) *
+                         origin.transpose();
+  if (!frame.health.registered) {
+    uncertainty_.add_prediction(growth);
+    return;
+  }
+  const voxel_map::ObjectiveOptions& objective = options_.lidar.alignment.objective;
+  voxel_map::ScanEvidence evidence =
+      voxel_map::scan_evidence(matches_, no_motion(), T_map_last_, objective);
+  const double scale = std::max(matches_.scale, objective.min_scale);
+  evidence.scale(options_.information_share / (scale * scale));
+  if (shares_.minCoeff() < 1) {
+    Matrix6 axes = Matrix6::Identity();
+    axes.topLeftCorner<3, 3>() = T_map_last_.rotation;
+    const Eigen::Matrix3d& R = T_map_last_.rotation;
+    const lidar::Observability& seen = frame.health.observability;
+    evidence.keep(axes * shared(seen, shares_.cwiseSqrt(), R) * axes.transpose(),
+                  axes * shared(seen, shares_, R) * axes.transpose());
+  }
+  uncertainty_.add(evidence, T_map_last_, is_new_view(), predicted.llt().solve(Matrix6::Identity()),
+                   growth);
 }
 
 /// How a perturbation of the body's pose moves that of the lidar.
@@ -291,9 +352,21 @@ std::optional<FusedScans::Condensed> FusedScans::condense(const Pose3& T_map_lid
   const double scale = std::max(matches_.scale, alignment.objective.min_scale);
   const double share = options_.information_share / (scale * scale);
   Condensed condensed{T_map_lidar, share * normal.H, share * normal.g};
-  leave_out_degenerate(health.observability, T_map_lidar.rotation, condensed.H, condensed.g);
+  shares_ = voxel_map::facing_shares(health.observability, matches_, T_map_lidar, motion);
+  keep_shares(health.observability, shares_, T_map_lidar.rotation, condensed.H, condensed.g);
   watch.lap(frame.ms.solve);
   return condensed;
+}
+
+/// A scan from where the last one was taken has its points on the same rings: what lies between
+/// them it does not show, and planes and lines that only follow a ring would look well seen. They
+/// say that nothing moves, and hold the attitude when a vehicle lifts its nose to go.
+bool FusedScans::is_new_view() const {
+  constexpr double kMoved_m = 0.05;
+  constexpr double kTurned = 0.1 * geometry::kDegree;
+  if (!T_map_inserted_) return true;
+  const Pose3 since = T_map_inserted_->inverse() * T_map_last_;
+  return since.translation.norm() > kMoved_m || geometry::angle_of(since.rotation) > kTurned;
 }
 
 void FusedScans::insert(const SweepSample& sample, lidar::Frame& frame) {
@@ -304,6 +377,7 @@ void FusedScans::insert(const SweepSample& sample, lidar::Frame& frame) {
   path.apply(sample.surface, deskewed_.surface);
   path.apply(sample.edges, deskewed_.edges);
   map_.insert(deskewed_, T_map_last_, geometry::Twist::Zero(), *workers_);
+  T_map_inserted_ = T_map_last_;
   watch.lap(frame.ms.insert);
 }
 

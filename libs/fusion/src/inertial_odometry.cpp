@@ -207,7 +207,7 @@ class InertialOdometry::Impl {
       const bool looks_for_start = has_imu_ && !was_given_up();
       if (looks_for_start) waiting_.push_back({sample.stamp, sample.middle_s});
       std::vector<lidar::Frame> frames = alone_.process(sample);
-      if (looks_for_start) look_for_start(frames);
+      if (looks_for_start) look_for_start(frames, sample);
       return told(std::move(frames));
     }
     const auto later = std::upper_bound(
@@ -245,13 +245,15 @@ class InertialOdometry::Impl {
     is_contradicted_ = true;
     start_note_ = fmt::format("given up after frame {} (begun with frame {}), {}", last.index,
                               fused_from_, why);
-    alone_.go_on(fused_->map(), {last.index + 1, last.stamp, middle_s,
-                                 fused_->lidar_in_the_middle(), last.velocity});
+    alone_.go_on(fused_->map(),
+                 {last.index + 1, last.stamp, middle_s, fused_->lidar_in_the_middle(),
+                  last.velocity, fused_->uncertainty()});
     fused_.reset();
   }
 
   /// Whether what the lidar alone has found is enough to begin with.
-  void look_for_start(const std::vector<lidar::Frame>& frames) {
+  /// \param sample  the last of them
+  void look_for_start(const std::vector<lidar::Frame>& frames, const SweepSample& sample) {
     constexpr double kMostRemembered_s = 10;
     for (const lidar::Frame& frame : frames) {
       const Waiting scan = waiting_.front();
@@ -277,13 +279,22 @@ class InertialOdometry::Impl {
       is_contradicted_ = false;
       fused_from_ = frames.back().index + 1;
       start_note_ = fmt::format("from frame {} on, {}", fused_from_, verdict.first->how);
-      fused_.emplace(options_, mounts_, *verdict.first, alone_.map(), deskew_note_ == "on",
-                     profile_.sweep_s, fused_from_, workers_);
+      fused_.emplace(options_, mounts_, *verdict.first, first_map(*verdict.first, sample),
+                     alone_.uncertainty(), deskew_note_ == "on", profile_.sweep_s, fused_from_,
+                     workers_);
       return;
     }
     is_contradicted_ = verdict.is_contradiction;
     start_note_ = "not begun: " + verdict.why_not;
     forget_before(geometry::shifted(sightings_.front().stamp, -1));
+  }
+
+  /// Of a lidar that stood still every scan shows the same rings; one of them is all that is known.
+  voxel_map::VoxelMap first_map(const FirstState& first, const SweepSample& sample) {
+    if (!first.was_standing) return alone_.map();
+    voxel_map::VoxelMap map(options_.lidar.map);
+    map.insert(sample, sightings_.back().T_map_lidar, geometry::Twist::Zero(), *workers_);
+    return map;
   }
 
   void forget_before(Stamp stamp) {

@@ -59,6 +59,7 @@ std::optional<FirstState> from_standing(std::span<const Sighting> sightings, con
   found.gravity_map = -start.gravity * (last.T_map_lidar.rotation * up_body);
   found.sigma = inertial::first_sigma(options.wheels, kRotationSigma, kPositionSigma, 0.02,
                                       still->gyro_bias_sigma + 1e-3, start.accelerometer_bias);
+  found.was_standing = true;
   found.how = fmt::format("standing still for {:g} s", start.stand_still.seconds);
   return found;
 }

@@ -22,6 +22,7 @@ struct FirstState {
   inertial::NavState state;  ///< at the last sighting, of the IMU in the lidar's axes
   Eigen::Vector3d gravity_map = Eigen::Vector3d::Zero();  ///< m/s^2
   inertial::NavState::Tangent sigma;
+  bool was_standing = false;
   std::string how;  ///< in words
 };
 

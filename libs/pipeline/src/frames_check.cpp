@@ -38,6 +38,14 @@ const std::vector<std::vector<std::string>>& column_groups() {
         {"wheel_pitch_deg", "wheel_pitch_sigma"},
         {"wheel_yaw_deg", "wheel_yaw_sigma"},
         {"gnss_latency_s", "gnss_latency_sigma"}};
+    std::vector<std::string> covariance;
+    const std::vector<std::string> twist{"rx", "ry", "rz", "tx", "ty", "tz"};
+    for (auto row = twist.begin(); row != twist.end(); ++row) {
+      for (auto col = row; col != twist.end(); ++col) {
+        covariance.push_back("covariance_" + *row + "_" + *col);
+      }
+    }
+    groups.push_back(covariance);
     for (const std::string kind : {"gnss", "heading", "wheels", "standing", "inertial"}) {
       groups.push_back({kind + "_chi2", kind + "_rows", kind + "_rejected"});
     }

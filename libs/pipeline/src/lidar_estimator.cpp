@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "traverse/geometry/se3.hpp"
+
 namespace traverse::pipeline {
 
 namespace {
@@ -73,6 +75,19 @@ void for_each_value(const lidar::Frame& frame, const Add& add) {
   add("insert_ms", frame.ms.insert);
 }
 
+/// Upper triangle of a covariance of (rotation, translation), in this one place.
+template <typename Add>
+void for_each_entry(const geometry::Matrix6& covariance, const Add& add) {
+  static constexpr std::array<std::string_view, 6> kAxes{"rx", "ry", "rz", "tx", "ty", "tz"};
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    for (Eigen::Index j = i; j < 6; ++j) {
+      add(fmt::format("covariance_{}_{}", kAxes[static_cast<std::size_t>(i)],
+                      kAxes[static_cast<std::size_t>(j)]),
+          covariance(i, j));
+    }
+  }
+}
+
 /// The body twist of a rigid vehicle from that of a sensor on it: the adjoint of T_body_sensor.
 geometry::Twist moved_to_body(const geometry::Twist& velocity_sensor,
                               const geometry::Pose3& T_body_sensor) {
@@ -93,6 +108,10 @@ LidarEstimator::LidarEstimator(const MakeOdometry& make, const dataset::Recordin
   odometry_->mount(recording.rig, sensor_);
   for_each_value(lidar::Frame{},
                  [&](std::string_view name, double) { columns_.emplace_back(name); });
+  if (odometry_->tells_covariance()) {
+    for_each_entry(geometry::Matrix6::Zero(),
+                   [&](std::string name, double) { columns_.push_back(std::move(name)); });
+  }
   const auto& further = odometry_->further_columns();
   columns_.insert(columns_.end(), further.begin(), further.end());
   if (const auto* imu = recording.rig.first(sensors::SensorKind::kImu)) {
@@ -186,6 +205,13 @@ std::vector<PoseFrame> LidarEstimator::to_body(std::vector<lidar::Frame> frames)
     pose.velocity = moved_to_body(frame.velocity, sensor_.T_body_sensor);
     pose.milliseconds = frame.ms.total();
     for_each_value(frame, [&](std::string_view, double value) { pose.record.push_back(value); });
+    if (odometry_->tells_covariance()) {
+      const geometry::Matrix6 to_body = geometry::adjoint(sensor_.T_body_sensor);
+      const geometry::Matrix6 covariance =
+          frame.covariance.value_or(geometry::Matrix6(geometry::Matrix6::Zero()));
+      for_each_entry(to_body * covariance * to_body.transpose(),
+                     [&](const std::string&, double value) { pose.record.push_back(value); });
+    }
     pose.record.insert(pose.record.end(), frame.further.begin(), frame.further.end());
     result.push_back(std::move(pose));
   }

@@ -28,6 +28,7 @@ void LineMap::insert(const LocalPoints& points) {
     ColdCell& cell = cold_[index];
     cell.moments.add(p[0] - at.centre(c[0], 0), p[1] - at.centre(c[1], 1),
                      p[2] - at.centre(c[2], 2));
+    cell.inserted += (static_cast<float>(inserts_) - cell.inserted) / cell.moments.n;
     if (cell.touched == inserts_) continue;
     cell.touched = inserts_;
     ++cell.frames;
@@ -40,7 +41,7 @@ std::uint32_t LineMap::find_or_add(std::int32_t x, std::int32_t y, std::int32_t 
   const auto next = static_cast<std::uint32_t>(cold_.size());
   const std::uint32_t index = table_.find_or_add(cell_key(x, y, z), next);
   if (index == next) {
-    cold_.push_back({{}, 0, 0, 0, {x, y, z}});
+    cold_.push_back({{}, 0, 0, 0, 0, {x, y, z}});
     lines_.emplace_back();
   }
   return index;
@@ -58,6 +59,7 @@ void LineMap::refit(std::uint32_t index) {
   cell.fitted_n = cell.moments.n;
   const auto line = fit_line(cell.moments, options_.fit);
   lines_[index].is_line = line.has_value();
+  lines_[index].inserted = cell.inserted;
   if (line) lines_[index].line = *line;
   if (cell.moments.n > kMostPoints) {
     cell.moments.forget_half();
@@ -80,6 +82,7 @@ bool LineMap::find(const CellGrid& at, const RelativeCell& c, Answer& answer) co
   answer.d1 = line.offset_1 - line.normal_1.dot(centre);
   answer.d2 = line.offset_2 - line.normal_2.dot(centre);
   answer.variance = line.variance;
+  answer.age = static_cast<float>(inserts_ + 1) - cell.inserted;
   return true;
 }
 

@@ -120,6 +120,10 @@ void PlaneMap::insert_runs(Shard& shard, const std::vector<Run>& runs) const {
     shard.cells[i] = fine_cell(shard, runs[i].number);
   }
   const auto cell_m = static_cast<float>(options_.cell_m);
+  const auto now = static_cast<float>(inserts_);
+  const auto date = [&](ColdCell& cell, float points) {
+    cell.inserted += (now - cell.inserted) * (points / cell.moments.n);
+  };
   const auto touch = [&](ColdCell& cell, std::uint32_t index, std::vector<std::uint32_t>& touched) {
     if (cell.touched == inserts_) return;
     cell.touched = inserts_;
@@ -135,6 +139,7 @@ void PlaneMap::insert_runs(Shard& shard, const std::vector<Run>& runs) const {
     const std::uint32_t coarse = shard.fine.planes[fine].parent;
     ColdCell& cell = shard.fine.cold[fine];
     cell.moments.add(runs[i].moments);
+    date(cell, runs[i].moments.n);
     touch(cell, fine, shard.touched_fine);
 
     // From the middle fine cell of the parent, in whole cells.
@@ -146,6 +151,7 @@ void PlaneMap::insert_runs(Shard& shard, const std::vector<Run>& runs) const {
     ColdCell& parent = shard.coarse.cold[coarse];
     parent.moments.add_shifted(runs[i].moments, offset(c.x, p.x), offset(c.y, p.y),
                                offset(c.z, p.z));
+    date(parent, runs[i].moments.n);
     touch(parent, coarse, shard.touched_coarse);
   }
 }
@@ -167,6 +173,7 @@ void PlaneMap::refit(Level& level, std::uint32_t index, double cell_m) const {
     plane.nz = fitted->normal.z();
     plane.d = fitted->offset;
     plane.variance = fitted->variance;
+    plane.inserted = cell.inserted;
   }
   if (cell.moments.n > kMostPoints) {
     cell.moments.forget_half();
@@ -184,7 +191,8 @@ bool PlaneMap::find(const CellGrid& at, const RelativeCell& cell, Answer& answer
   const Shard& shard = shards_[shard_of(px, py, pz)];
   const auto tell = [&](const PlaneCell& plane, float mx, float my, float mz) {
     const float offset = plane.d - plane.nx * mx - plane.ny * my - plane.nz * mz;
-    answer = {plane.nx, plane.ny, plane.nz, offset, plane.variance};
+    const float age = static_cast<float>(inserts_ + 1) - plane.inserted;
+    answer = {plane.nx, plane.ny, plane.nz, offset, plane.variance, age};
   };
   const std::uint32_t fine = shard.fine.table.find(cell_key(cx, cy, cz));
   std::uint32_t coarse = kNone;

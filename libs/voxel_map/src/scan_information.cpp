@@ -1,5 +1,6 @@
 #include "traverse/voxel_map/scan_information.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -23,6 +24,13 @@ lidar::Matrix6 mean_information(const NormalEquations& normal, const Eigen::Matr
   axes.topLeftCorner<3, 3>() /= scale_m;
   axes.bottomRightCorner<3, 3>() = R_map_lidar;
   return axes.transpose() * normal.H * axes / normal.weight;
+}
+
+double facing_along(const lidar::Observability& seen, int direction, const ScanMatches& matches,
+                    const geometry::Pose3& T_map_lidar, const MotionModel& motion) {
+  lidar::Vector6 along = seen.directions.col(direction);
+  along.head<3>() /= seen.rotation_scale_m;
+  return facing_information(matches, T_map_lidar, motion, along);
 }
 
 }  // namespace
@@ -54,12 +62,24 @@ lidar::Observability judged_observability(const NormalEquations& normal, const S
                            std::numeric_limits<double>::lowest());
   const auto is_degenerate = [&](int direction) {
     if (seen.eigenvalues[direction] > kPlainlySeen) return false;
-    lidar::Vector6 along = seen.directions.col(direction);
-    along.head<3>() /= scale_m;
-    return facing_information(matches, T_map_lidar, motion, along) < min_eigenvalue;
+    return facing_along(seen, direction, matches, T_map_lidar, motion) < min_eigenvalue;
   };
   while (seen.degenerate < 6 && is_degenerate(seen.degenerate)) ++seen.degenerate;
   return seen;
+}
+
+lidar::Vector6 facing_shares(const lidar::Observability& seen, const ScanMatches& matches,
+                             const geometry::Pose3& T_map_lidar, const MotionModel& motion) {
+  lidar::Vector6 shares = lidar::Vector6::Ones();
+  for (int k = 0; k < 6; ++k) {
+    if (k < seen.degenerate) {
+      shares[k] = 0;
+    } else if (seen.eigenvalues[k] <= kPlainlySeen) {
+      const double facing = facing_along(seen, k, matches, T_map_lidar, motion);
+      shares[k] = std::min(1.0, facing / seen.eigenvalues[k]);
+    }
+  }
+  return shares;
 }
 
 }  // namespace traverse::voxel_map

@@ -16,7 +16,7 @@ constexpr float kHorizontal = 0.8F;  // |normal_z| above: ground or ceiling
 
 void move_row(PlaneRows& rows, std::size_t from, std::size_t to) {
   for (auto* values : {&rows.x, &rows.y, &rows.z, &rows.time, &rows.nx, &rows.ny, &rows.nz, &rows.d,
-                       &rows.weight}) {
+                       &rows.weight, &rows.age}) {
     (*values)[to] = (*values)[from];
   }
 }
@@ -81,10 +81,10 @@ void bind(config::Binder& b, MatchOptions& o) {
 }
 
 void PlaneRows::resize(std::size_t rows) {
-  for (auto* values : {&x, &y, &z, &time, &nx, &ny, &nz, &d, &weight}) values->resize(rows);
+  for (auto* values : {&x, &y, &z, &time, &nx, &ny, &nz, &d, &weight, &age}) values->resize(rows);
 }
 
-std::size_t PlaneRows::bytes() const { return 9 * size() * sizeof(float); }
+std::size_t PlaneRows::bytes() const { return 10 * size() * sizeof(float); }
 
 std::size_t ScanMatches::bytes() const {
   return planes.bytes() + line_1.bytes() + line_2.bytes() +
@@ -141,6 +141,7 @@ void associate(const SweepSample& sample, const LocalPoints& planar, const Local
       planes.ny[row] = plane.ny;
       planes.nz[row] = plane.nz;
       planes.d[row] = plane.d;
+      planes.age[row] = plane.age;
       const float range = sample.planar.range[i];
       planes.weight[row] = 1 / (noise + per_m * range * range + plane.variance);
       normalised[row] = std::abs(r) * std::sqrt(planes.weight[row]);
@@ -179,6 +180,7 @@ void associate(const SweepSample& sample, const LocalPoints& planar, const Local
         rows.nz[row] = n[2];
         rows.d[row] = d;
         rows.weight[row] = weight;
+        rows.age[row] = line.age;
       };
       set(matches.line_1, line.n1, line.d1);
       set(matches.line_2, line.n2, line.d2);

@@ -55,6 +55,7 @@ void VoxelMapOdometry::go_on(const VoxelMap& map, const Known& last) {
   last_middle_s_ = last.middle_s;
   T_map_last_ = last.T_map_middle;
   velocity_ = last.velocity;
+  uncertainty_ = LidarUncertainty(last.uncertainty);
 }
 
 std::vector<lidar::Frame> VoxelMapOdometry::finish() { return advance_all(held_back_.release()); }
@@ -138,6 +139,7 @@ void VoxelMapOdometry::settle(const std::vector<SweepSample>& scans,
   const geometry::Pose3 T_map_old = T_old_map.inverse();
   frames[0].T_map_lidar = T_old_map;  // and the origin, once moved as the others are
   map_ = VoxelMap(options_.map);
+  uncertainty_ = LidarUncertainty();
   const std::size_t last = scans.size() - 1;
   for (std::size_t i = 0; i < last; ++i) {
     frames[i].T_map_lidar = (T_map_old * frames[i].T_map_lidar).orthonormalised();
@@ -174,9 +176,19 @@ lidar::Frame VoxelMapOdometry::advance(const SweepSample& sample, double start_m
                                       options_.alignment, effort, *workers_, matches_, frame.ms);
     T_map_middle = alignment.T_map_lidar.orthonormalised();
     frame.health = alignment.health;
+    const MotionModel motion{T_map_last_, dt, deskew};
+    const geometry::Twist before = velocity_;
     if (frame.health.registered) {
       velocity_ = geometry::log_se3(T_map_last_.inverse() * T_map_middle) / dt;
     }
+    lidar::Stopwatch watch;
+    if (frame.health.registered) {
+      uncertainty_.add(scan_evidence(matches_, motion, T_map_middle, options_.alignment.objective),
+                       frame.health.observability, T_map_middle, velocity_ - before, dt);
+    } else {
+      uncertainty_.add_predicted(T_map_middle, dt);
+    }
+    watch.lap(frame.ms.solve);
   }
   frame.velocity = velocity_;
   frame.T_map_lidar = T_map_middle;
@@ -191,6 +203,7 @@ lidar::Frame VoxelMapOdometry::advance(const SweepSample& sample, double start_m
     watch.lap(frame.ms.insert);
   }
   frame.map_points = map_.size();
+  frame.covariance = uncertainty_.pose().covariance(T_map_middle);
 
   T_map_last_ = T_map_middle;
   last_stamp_ = frame.stamp;

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "charts/chart.hpp"
+#include "charts/covariance_charts.hpp"
 #include "charts/series.hpp"
 
 namespace traverse::report {
@@ -139,6 +140,7 @@ void add_error_charts(const RunData& run, Json& charts) {
   const evaluation::Comparison& comparison = *run.evaluation.comparison;
   add_absolute(comparison, charts);
   add_relative(comparison, charts);
+  add_covariance_chart(run, charts);
   add_share(comparison, charts);
   if (comparison.kitti) add_kitti(*comparison.kitti, charts);
   add_association(run, charts);

@@ -82,6 +82,7 @@ class InertialOdometry final : public lidar::Odometry {
   std::vector<lidar::Frame> finish() override;
   const std::string& deskew_note() const override;
   std::vector<lidar::Note> notes() const override;
+  bool tells_covariance() const override { return true; }
   const std::vector<std::string>& further_columns() const override;
 
   /// Of the latest sweeps deskewed as the IMU says; of others, and before fusion, by `velocity`.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "traverse/geometry/pose3.hpp"
@@ -34,6 +35,9 @@ struct Frame {
   geometry::Stamp stamp;
   geometry::Pose3 T_map_lidar;
   geometry::Twist velocity = geometry::Twist::Zero();  ///< body twist a second, lidar frame: deskew
+  /// Of the pose from the first frame's, as a twist on its right, T_map_lidar Exp(d): d = (rotation
+  /// [rad], translation [m]) in the axes of the lidar. Where the odometry tells it.
+  std::optional<Matrix6> covariance;
   std::size_t points = 0;
   DroppedPoints dropped;
   std::array<std::size_t, kFeatureClasses> class_counts{};

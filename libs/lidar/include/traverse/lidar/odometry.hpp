@@ -76,6 +76,9 @@ class Odometry {
     return kNone;
   }
 
+  /// Whether frames have a covariance.
+  virtual bool tells_covariance() const { return false; }
+
   /// Whether scans are deskewed ("on"), and, if not, why.
   virtual const std::string& deskew_note() const = 0;
 

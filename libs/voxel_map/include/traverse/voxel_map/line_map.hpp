@@ -36,6 +36,7 @@ class LineMap {
     float n1[3], d1;
     float n2[3], d2;
     float variance;
+    float age;  ///< how many inserts ago its points came, in the mean; 1 is the last
   };
   /// \returns false if the cell has no line.
   bool find(const CellGrid& grid, const RelativeCell& cell, Answer& answer) const;
@@ -54,6 +55,7 @@ class LineMap {
   struct ColdCell {
     Moments moments;
     float fitted_n = 0;
+    float inserted = 0;         ///< mean number of the inserts that its points came by
     std::uint32_t touched = 0;  ///< number of the last insert()
     std::int32_t frames = 0;
     std::int32_t number[3];
@@ -61,6 +63,7 @@ class LineMap {
   struct LineCell {
     FittedLine line;  ///< relative to the centre of the cell
     bool is_line = false;
+    float inserted = 0;  ///< as of the cell, when the line was fitted
   };
   std::uint32_t find_or_add(std::int32_t x, std::int32_t y, std::int32_t z);
   void refit(std::uint32_t cell);

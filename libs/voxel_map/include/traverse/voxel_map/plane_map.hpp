@@ -28,7 +28,7 @@ struct PlaneCell {
   float variance = 0;                   ///< across the plane, square metres
   std::uint32_t is_plane = 0;
   std::uint32_t parent = 0;  ///< index of the coarse cell, for a fine one
-  std::uint32_t padding = 0;
+  float inserted = 0;        ///< mean number of the inserts that its points came by
 };
 
 /// A map of planes: for each cell of a grid, the plane through the points that fell into it. Where
@@ -50,6 +50,7 @@ class PlaneMap {
   /// The plane that answers for the points in a cell, in local coordinates: n . p + d = 0.
   struct Answer {
     float nx, ny, nz, d, variance;
+    float age;  ///< how many inserts ago its points came, in the mean; 1 is the last
   };
   /// \returns false if neither the cell nor its parent has a plane.
   bool find(const CellGrid& grid, const RelativeCell& cell, Answer& answer) const;
@@ -70,6 +71,7 @@ class PlaneMap {
   struct ColdCell {
     Moments moments;
     float fitted_n = 0;
+    float inserted = 0;         ///< mean number of the inserts that its points came by
     std::uint32_t touched = 0;  ///< number of the last insert()
   };
   struct CellNumber {

@@ -35,4 +35,10 @@ lidar::Observability judged_observability(const NormalEquations& normal, const S
                                           const MotionModel& motion, double scale_m,
                                           double min_eigenvalue);
 
+/// Of the information on each direction the share that is of surfaces that face it: the rest is as
+/// noise of normals makes it. 1 where that cannot matter, 0 where the direction is degenerate.
+/// \param seen  judged_observability() of the same
+lidar::Vector6 facing_shares(const lidar::Observability& seen, const ScanMatches& matches,
+                             const geometry::Pose3& T_map_lidar, const MotionModel& motion);
+
 }  // namespace traverse::voxel_map

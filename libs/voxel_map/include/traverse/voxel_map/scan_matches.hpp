@@ -22,6 +22,7 @@ struct PlaneRows {
   std::vector<float> x, y, z, time;
   std::vector<float> nx, ny, nz, d;
   std::vector<float> weight;  ///< 1 / variance, 1 / m^2
+  std::vector<float> age;     ///< of the plane, in scans: PlaneMap::Answer
 
   void resize(std::size_t rows);
   std::size_t size() const { return x.size(); }

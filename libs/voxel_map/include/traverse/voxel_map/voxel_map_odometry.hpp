@@ -8,6 +8,7 @@
 #include "traverse/lidar/held_back.hpp"
 #include "traverse/lidar/odometry.hpp"
 #include "traverse/parallel/workers.hpp"
+#include "traverse/voxel_map/lidar_uncertainty.hpp"
 #include "traverse/voxel_map/start_search.hpp"
 #include "traverse/voxel_map/sweep_sampler.hpp"
 
@@ -59,10 +60,12 @@ class VoxelMapOdometry final : public lidar::Odometry {
     double middle_s = 0;    ///< of its sweep, after that
     geometry::Pose3 T_map_middle;
     geometry::Twist velocity = geometry::Twist::Zero();  ///< body twist a second
+    PoseUncertainty uncertainty;
   };
   void go_on(const VoxelMap& map, const Known& last);
   std::vector<lidar::Frame> finish() override;
   const std::string& deskew_note() const override { return deskew_note_; }
+  bool tells_covariance() const override { return true; }
 
   /// Classes: kSharp an edge point, kFlat a registered planar point, kLessFlat another planar
   /// point, kNone a point that was not sampled or is not planar.
@@ -81,6 +84,8 @@ class VoxelMapOdometry final : public lidar::Odometry {
   std::vector<optimization::FactorUse> factors() const override;
 
   const VoxelMap& map() const { return map_; }
+  /// Of the last frame's pose in the middle of its sweep.
+  const PoseUncertainty& uncertainty() const { return uncertainty_.pose(); }
 
  private:
   std::vector<lidar::Frame> advance_all(const std::vector<SweepSample>& scans);
@@ -104,6 +109,7 @@ class VoxelMapOdometry final : public lidar::Odometry {
   double last_middle_s_ = 0;                            // after that stamp: the moment of the pose
   geometry::Pose3 T_map_last_;                          // in the middle of the last sweep
   geometry::Twist velocity_ = geometry::Twist::Zero();  // at the last frame
+  LidarUncertainty uncertainty_;
   ScanMatches matches_;  // of the last frame; kept for its memory too
 };
 
