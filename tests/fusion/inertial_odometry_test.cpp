@@ -23,6 +23,9 @@ InertialOdometryOptions quick_start() {
   options.lidar.start.slowest_mps = 8;
   options.lidar.start.fastest_mps = 16;
   options.start.moving_s = 0.8;
+  // As that of the lidar alone, which poses are held against.
+  options.lidar.covariance = true;
+  options.min_plane_width_m = options.lidar.map.planes.fit.min_width_m;
   return options;
 }
 

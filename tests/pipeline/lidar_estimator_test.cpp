@@ -59,6 +59,7 @@ TEST(LidarEstimator, CovariancesAreOfTheBodysPoseWithTheLeverOfTheLidar) {
   voxel_map::VoxelMapOdometryOptions options;
   options.start.scans = 2;
   options.start.slowest_mps = options.start.fastest_mps = 10;
+  options.covariance = true;
   const auto make = [&](const sensors::LidarProfile& profile, bool motion_compensated) {
     return std::make_unique<voxel_map::VoxelMapOdometry>(options, profile, motion_compensated);
   };

@@ -64,6 +64,8 @@ void bind(config::Binder& b, InertialOdometryOptions& o) {
   b.group("fusion", "IMU, wheels and lidar in one estimate", [&](config::Binder& g) {
     g.number("information_share", o.information_share, Range::between(1e-6, 1),
              "share of the matches' information that is new in each scan");
+    g.number("min_plane_width_m", o.min_plane_width_m, Range::non_negative(),
+             "with an IMU: least width of a plane across, as map.planes.min_width_m");
     g.group("imu", "noise of the IMU", [&](config::Binder& i) { bind(i, o.imu); });
     g.group("window", "the smoother's states", [&](config::Binder& w) {
       w.integer("states", o.window.states, Range::between(2, 1000), "at most");
@@ -78,8 +80,9 @@ class InertialOdometry::Impl {
  public:
   Impl(const InertialOdometryOptions& options, const sensors::LidarProfile& profile,
        bool motion_compensated)
-      : options_(with_threads(options)),
+      : options_(completed(options)),
         profile_(profile),
+        motion_compensated_(motion_compensated),
         deskew_note_(lidar::deskew_note(options.lidar.deskew, profile, motion_compensated)),
         workers_(std::make_shared<parallel::Workers>(options.threads)),
         alone_(options_.lidar, profile, motion_compensated) {}
@@ -90,6 +93,8 @@ class InertialOdometry::Impl {
     start_note_ = has_imu_ ? "not begun: too few scans to begin with"
                            : "no IMU in this recording: as the lidar alone";
     if (imu == nullptr) return;
+    options_.lidar.map.planes.fit.min_width_m = options_.min_plane_width_m;
+    alone_ = voxel_map::VoxelMapOdometry(options_.lidar, profile_, motion_compensated_);
     const geometry::Pose3 T_lidar_body = lidar.T_body_sensor.inverse();
     p_lidar_imu_ = T_lidar_body * imu->T_body_sensor.translation;
     mounts_.p_lidar_body = -p_lidar_imu_;
@@ -188,8 +193,9 @@ class InertialOdometry::Impl {
   }
 
  private:
-  static InertialOdometryOptions with_threads(InertialOdometryOptions options) {
+  static InertialOdometryOptions completed(InertialOdometryOptions options) {
     options.lidar.threads = options.threads;
+    options.lidar.covariance = true;
     return options;
   }
 
@@ -358,6 +364,7 @@ class InertialOdometry::Impl {
 
   InertialOdometryOptions options_;
   sensors::LidarProfile profile_;
+  bool motion_compensated_ = false;
   std::string deskew_note_;
   std::shared_ptr<parallel::Workers> workers_;  // copies share the threads, which hold no state
   bool has_imu_ = false;

@@ -25,6 +25,8 @@ void bind(config::Binder& b, VoxelMapOdometryOptions& o) {
   b.group("map", "the local map of planes and lines", [&](config::Binder& g) { bind(g, o.map); });
   b.group("alignment", "solver of the pose", [&](config::Binder& g) { bind(g, o.alignment); });
   b.group("start", "search for the initial speed", [&](config::Binder& g) { bind(g, o.start); });
+  b.flag("covariance", o.covariance,
+         "covariance of each pose in frames.csv; of a lidar alone it is too small");
   b.integer("first_frames", o.first_frames, Range::between(0, 1000),
             "frames at the start that are registered with a wider gate and more rounds");
 }
@@ -182,7 +184,9 @@ lidar::Frame VoxelMapOdometry::advance(const SweepSample& sample, double start_m
       velocity_ = geometry::log_se3(T_map_last_.inverse() * T_map_middle) / dt;
     }
     lidar::Stopwatch watch;
-    if (frame.health.registered) {
+    if (!options_.covariance) {
+      // Not asked for: it takes a tenth of a frame's time.
+    } else if (frame.health.registered) {
       uncertainty_.add(scan_evidence(matches_, motion, T_map_middle, options_.alignment.objective),
                        frame.health.observability, T_map_middle, velocity_ - before, dt);
     } else {
@@ -203,7 +207,7 @@ lidar::Frame VoxelMapOdometry::advance(const SweepSample& sample, double start_m
     watch.lap(frame.ms.insert);
   }
   frame.map_points = map_.size();
-  frame.covariance = uncertainty_.pose().covariance(T_map_middle);
+  if (options_.covariance) frame.covariance = uncertainty_.pose().covariance(T_map_middle);
 
   T_map_last_ = T_map_middle;
   last_stamp_ = frame.stamp;

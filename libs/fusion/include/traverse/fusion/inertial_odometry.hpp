@@ -37,6 +37,9 @@ struct InertialOdometryOptions {
   inertial::WindowOptions window;
   inertial::WheelOptions wheels;
   StartOptions start;
+  /// Of the planes' `min_width_m` where there is an IMU: points of one ring scatter along the rays,
+  /// and a plane through them would hold the attitude that the lidar had.
+  double min_plane_width_m = 0.08;
   double information_share = 0.1;  ///< of the matches' information that is new
   int threads = 1;                 ///< the result does not depend on it
 };

@@ -20,6 +20,9 @@ struct VoxelMapOdometryOptions {
   VoxelMapOptions map;
   AlignmentOptions alignment;
   StartSearchOptions start;
+  /// Frames carry the covariance of their pose. Of a lidar alone it is far too small: what its
+  /// first scans agree on is wrong together (docs/mathematics-fusion.md).
+  bool covariance = false;
   int first_frames = 5;  ///< registered with more effort: their predictions are worse
   int threads = 1;       ///< the result does not depend on it
 };
@@ -65,7 +68,7 @@ class VoxelMapOdometry final : public lidar::Odometry {
   void go_on(const VoxelMap& map, const Known& last);
   std::vector<lidar::Frame> finish() override;
   const std::string& deskew_note() const override { return deskew_note_; }
-  bool tells_covariance() const override { return true; }
+  bool tells_covariance() const override { return options_.covariance; }
 
   /// Classes: kSharp an edge point, kFlat a registered planar point, kLessFlat another planar
   /// point, kNone a point that was not sampled or is not planar.
