@@ -148,8 +148,10 @@ void require_sensible(const EvaluateArguments& arguments) {
   if (!arguments.reference && !arguments.checkpoints && !is_run(arguments.estimate)) {
     throw CLI::ValidationError(
         "--reference",
-        "or --checkpoints is needed unless ESTIMATE is a run folder. Without either there is still: "
-        "how sharp the map of the poses is (MME; `traverse import` and `run`), how well loops agree "
+        "or --checkpoints is needed unless ESTIMATE is a run folder. Without either there is "
+        "still: "
+        "how sharp the map of the poses is (MME; `traverse import` and `run`), how well loops "
+        "agree "
         "with them (a preset with slam.use=true: loops.csv), and whether repeats give the same "
         "(`repeats` in a batch's plan)");
   }
@@ -334,13 +336,12 @@ void evaluate(const EvaluateArguments& arguments) {
   }
   const ReadTrajectory estimate(estimate_file, arguments.choice, arguments);
   const dataset::TrajectoryChoice of_reference{
-      arguments.reference_format.value_or(is_run(arguments.estimate) ||
-                                                  !arguments.choice.columns.empty() ||
-                                                  !arguments.choice.topic.empty() ||
-                                                  !arguments.reference_columns.empty() ||
-                                                  !arguments.reference_topic.empty()
-                                              ? TrajectoryFormat::kAuto
-                                              : arguments.choice.format),
+      arguments.reference_format.value_or(
+          is_run(arguments.estimate) || !arguments.choice.columns.empty() ||
+                  !arguments.choice.topic.empty() || !arguments.reference_columns.empty() ||
+                  !arguments.reference_topic.empty()
+              ? TrajectoryFormat::kAuto
+              : arguments.choice.format),
       arguments.reference_columns, arguments.reference_topic};
   const ReadTrajectory reference(reference_file, of_reference, arguments);
   evaluation::Evaluation evaluation =

@@ -253,8 +253,8 @@ TEST(SubTrajectories, LengthsWithTooFewAreTold) {
   options.sub_trajectory_lengths_m = {2, 4};
   const Comparison comparison = *evaluate(trajectory, trajectory, options).comparison;
   EXPECT_EQ(comparison.sub_trajectories.size(), 1U);
-  EXPECT_THAT(comparison.undefined,
-              ::testing::Contains(::testing::Field(&Undefined::metric, "relative errors over 4 m")));
+  EXPECT_THAT(comparison.undefined, ::testing::Contains(::testing::Field(
+                                        &Undefined::metric, "relative errors over 4 m")));
 }
 
 }  // namespace
