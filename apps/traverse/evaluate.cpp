@@ -149,11 +149,9 @@ void require_sensible(const EvaluateArguments& arguments) {
     throw CLI::ValidationError(
         "--reference",
         "or --checkpoints is needed unless ESTIMATE is a run folder. Without either there is "
-        "still: "
-        "how sharp the map of the poses is (MME; `traverse import` and `run`), how well loops "
-        "agree "
-        "with them (a preset with slam.use=true: loops.csv), and whether repeats give the same "
-        "(`repeats` in a batch's plan)");
+        "still: how sharp the map of the poses is (MME; `traverse import` and `run`), how well "
+        "loops agree with them (a preset with slam.use=true: loops.csv), and whether repeats give "
+        "the same (`repeats` in a batch's plan)");
   }
   if (arguments.from_s && arguments.to_s && *arguments.to_s < *arguments.from_s) {
     throw CLI::ValidationError("--to", "is before --from");

@@ -1,8 +1,6 @@
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 

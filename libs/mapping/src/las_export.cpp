@@ -18,12 +18,17 @@ namespace traverse::mapping {
 namespace {
 
 /// A field's values as doubles, or none.
-std::vector<double> values_of(const dataset::PointCloud& cloud,
-                              std::initializer_list<const char*> names) {
-  for (const char* name : names) {
-    if (const auto* values = cloud.find(name)) return dataset::to_doubles(*values);
+std::vector<double> values_of(const dataset::PointCloud& cloud, const char* name) {
+  const dataset::FieldValues* values = cloud.find(name);
+  return values == nullptr ? std::vector<double>() : dataset::to_doubles(*values);
+}
+
+/// By the names that programs give it.
+const dataset::FieldValues* intensity_of(const dataset::PointCloud& cloud) {
+  for (const char* name : {"intensity", "scalar_Intensity", "reflectivity"}) {
+    if (const auto* values = cloud.find(name)) return values;
   }
-  return {};
+  return nullptr;
 }
 
 /// What an intensity of 1 is in this field: whole numbers of one byte count to 255, of two to
@@ -57,21 +62,19 @@ LasExport export_las(const std::filesystem::path& ply,
   std::optional<exports::LasWriter> writer;
   std::uint64_t done = 0;
   while (const auto cloud = blocks.next()) {
-    const auto x = values_of(*cloud, {"x"});
-    const auto y = values_of(*cloud, {"y"});
-    const auto z = values_of(*cloud, {"z"});
+    const auto x = values_of(*cloud, "x");
+    const auto y = values_of(*cloud, "y");
+    const auto z = values_of(*cloud, "z");
     if (x.empty() || y.empty() || z.empty()) {
       throw files::InputError(ply, files::Place::whole_file(), "points with x, y and z",
                               "a PLY file without one of them");
     }
-    const auto time = values_of(*cloud, {"time"});
-    const auto ring = values_of(*cloud, {"ring"});
-    const auto intensity = values_of(*cloud, {"intensity", "scalar_Intensity", "reflectivity"});
-    const dataset::FieldValues* raw = nullptr;
-    for (const char* name : {"reflectivity", "scalar_Intensity", "intensity"}) {
-      if (const auto* found = cloud->find(name)) raw = found;
-    }
-    const double full = raw == nullptr ? 1 : full_scale(*raw);
+    const auto time = values_of(*cloud, "time");
+    const auto ring = values_of(*cloud, "ring");
+    const dataset::FieldValues* as_stored = intensity_of(*cloud);
+    const auto intensity =
+        as_stored == nullptr ? std::vector<double>() : dataset::to_doubles(*as_stored);
+    const double full = as_stored == nullptr ? 1 : full_scale(*as_stored);
     if (!writer) {
       result.has_time = !time.empty();
       result.has_gps_time = are_dates(time);

@@ -183,16 +183,17 @@ lidar::Frame VoxelMapOdometry::advance(const SweepSample& sample, double start_m
     if (frame.health.registered) {
       velocity_ = geometry::log_se3(T_map_last_.inverse() * T_map_middle) / dt;
     }
-    lidar::Stopwatch watch;
-    if (!options_.covariance) {
-      // Not asked for: it takes a tenth of a frame's time.
-    } else if (frame.health.registered) {
-      uncertainty_.add(scan_evidence(matches_, motion, T_map_middle, options_.alignment.objective),
-                       frame.health.observability, T_map_middle, velocity_ - before, dt);
-    } else {
-      uncertainty_.add_predicted(T_map_middle, dt);
+    if (options_.covariance) {
+      lidar::Stopwatch watch;
+      if (frame.health.registered) {
+        uncertainty_.add(
+            scan_evidence(matches_, motion, T_map_middle, options_.alignment.objective),
+            frame.health.observability, T_map_middle, velocity_ - before, dt);
+      } else {
+        uncertainty_.add_predicted(T_map_middle, dt);
+      }
+      watch.lap(frame.ms.solve);
     }
-    watch.lap(frame.ms.solve);
   }
   frame.velocity = velocity_;
   frame.T_map_lidar = T_map_middle;

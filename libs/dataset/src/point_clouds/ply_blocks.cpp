@@ -46,6 +46,7 @@ struct PlyBlocks::Content {
 PlyBlocks::PlyBlocks(const std::filesystem::path& file) : content_(std::make_unique<Content>()) {
   Content& c = *content_;
   c.path = file;
+  errno = 0;
   c.stream.open(file, std::ios::binary);
   if (!c.stream) {
     throw InputError(file, Place::whole_file(), "a file that can be read",
