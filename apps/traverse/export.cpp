@@ -39,7 +39,14 @@ struct ExportArguments {
 };
 
 fs::path cloud_of(const fs::path& source) {
-  return fs::is_directory(source) ? source / "map.ply" : source;
+  if (!fs::is_directory(source)) return source;
+  fs::path cloud = source / "map.ply";
+  if (!fs::exists(cloud)) {
+    throw files::InputError(cloud, files::Place::whole_file(),
+                            "the points of a run with a lidar or of a map (traverse map)",
+                            "no such file");
+  }
+  return cloud;
 }
 
 std::optional<geodesy::Geodetic> origin_of(const ExportArguments& arguments,

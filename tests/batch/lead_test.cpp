@@ -71,6 +71,15 @@ double wave(std::size_t i, double phase) {
          std::sin(1.13 * static_cast<double>(i) + 2 * phase);
 }
 
+TEST_F(Leads, NothingIsComparedAcrossRecordings) {
+  add("one", "loam", [](std::size_t i) { return 0.05 * wave(i, 0); });
+  add("two", "floam", [](std::size_t i) { return 0.06 * wave(i, 1); });
+  const auto found = lead();
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->second, "");
+  EXPECT_THAT(to_text(*found), ::testing::Not(HasSubstr("more")));
+}
+
 TEST_F(Leads, TwoThatAreATenthOfAMillimetreApartAreTied) {
   add("one", "loam", [](std::size_t i) { return 0.05 * wave(i, 0); });
   add("one", "floam", [](std::size_t i) { return 0.0502 * wave(i, 1); });

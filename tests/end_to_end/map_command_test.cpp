@@ -114,6 +114,13 @@ std::vector<std::string> words_of_other_readers(const std::string& las) {
   return words;
 }
 
+TEST_F(MapCommand, ExportSaysWhatAFolderWithoutPointsIs) {
+  fs::create_directory(path("empty"));
+  const ProgramResult result = run_program("export " + path("empty") + " " + path("x.las"));
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.messages, HasSubstr("expected the points of a run with a lidar or of a map"));
+}
+
 TEST_F(MapCommand, ARunWritesItsPointsAsLasToo) {
   constexpr std::uintmax_t kPointBytes = 30;
   const std::uintmax_t points = dataset::read_point_cloud(path("run1/map.ply")).size();

@@ -102,6 +102,11 @@ std::optional<Lead> find_lead(const std::string& metric, const Results& results,
       if (differences.back() > 0) ++lead.better_on;
     }
   }
+  if (differences.empty()) {  // of other recordings: nothing is more or less
+    lead.second.clear();
+    lead.has_more_ok = false;
+    return lead;
+  }
   const auto n = static_cast<double>(differences.size());
   for (const double difference : differences) lead.difference += difference / n;
   if (differences.size() >= kEnoughRecordings) {
@@ -119,7 +124,7 @@ std::optional<Lead> find_lead(const std::string& metric, const Results& results,
       has_variance = false;  // a run folder that somebody has tidied up
     }
   }
-  if (has_variance && !differences.empty()) {
+  if (has_variance) {
     const double half = kNormalQuantile * std::sqrt(variance);
     lead.interval = std::pair(lead.difference - half, lead.difference + half);
   }

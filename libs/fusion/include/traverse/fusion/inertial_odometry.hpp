@@ -56,10 +56,10 @@ void bind(config::Binder& binder, InertialOdometryOptions& options);
 ///                     insert the sample, deskewed by the state that is found
 ///
 /// Until gravity, velocity and the gyro's bias are known (find_start) poses are those of
-/// VoxelMapOdometry, bit for bit; so they are for good without an IMU. Where the matches do not
-/// tell a direction (a tunnel's axis), their information on it is left out, and the IMU and the
-/// wheels carry it. Matches err alike from scan to scan, because they are on the same surfaces: of
-/// their information `information_share` counts.
+/// VoxelMapOdometry, bit for bit (with an IMU, on planes of min_plane_width_m); so they are for
+/// good without an IMU. Where the matches do not tell a direction (a tunnel's axis), their
+/// information on it is left out, and the IMU and the wheels carry it. Matches err alike from scan
+/// to scan, because they are on the same surfaces: of their information `information_share` counts.
 ///
 /// An IMU that contradicts the lidar (biases that no unit has, or predictions that are off by many
 /// times what they say) is given up for good: the lidar alone goes on, and the run says so.
